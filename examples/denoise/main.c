@@ -185,7 +185,11 @@ int main(int count, char** arguments) {
         memset(&light, 0, sizeof light);
         light.structSize = sizeof light;
         light.light = direct;
-        memcpy(light.environment.factor, now->sky, sizeof light.environment.factor);
+        RefletEnvironment environment;
+        memset(&environment, 0, sizeof environment);
+        environment.structSize = sizeof environment;
+        memcpy(environment.factor, now->sky, sizeof environment.factor);
+        light.environment = &environment;
         RefletLobe specular = {.structSize = sizeof specular};
         reflet_check(refletReflections(view, settings, &light, &specular));
         RefletComposite sum = {.structSize = sizeof sum};

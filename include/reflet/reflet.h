@@ -11,8 +11,8 @@
  *
  * Structs that can grow begin with `structSize`, which the host sets to sizeof the struct as it knows it: newer
  * libraries then take older structs, and what these lack is zero. They are passed by pointer, also from struct to
- * struct. RefletImage and RefletPassTime keep their size. Zero is the default of every field, unless its comment says
- * "required". A number that stands for yes or no is 0 or 1.
+ * struct. RefletImage, RefletBuffer, RefletPassTime and what lies in buffers keep their size. Zero is the default of
+ * every field, unless its comment says "required". A number that stands for yes or no is 0 or 1.
  *
  * Threads: calls may come from any thread. Those on one view wait for each other; different views, also of one context,
  * record side by side. A command buffer belongs to the thread that records it, as always in Vulkan; callbacks of a
@@ -606,6 +606,105 @@ REFLET_API RefletResult refletDepthOfField(RefletView view, RefletSettings setti
 REFLET_API RefletResult refletToneMap(RefletView view, RefletSettings settings, const RefletImage* color,
                                       uint32_t autoExposure, RefletImage* display);
 
+/* ------------------------------------------------------------------------------------------------ missed rays --- */
+/*
+ * Between the screen and the environment a host can answer rays by its own means: ray tracing, distance fields, probes.
+ * refletMissedRays takes the place of refletDiffuseGi or refletReflections and stops behind the screen; the host
+ * records commands that read `rays` and write `answers`; refletAnswerRays goes on as the effect would have.
+ */
+
+/** A buffer of the library's, for the host. */
+typedef struct RefletBuffer {
+    VkBuffer buffer;              /**< with the usages storage, indirect, transfer source and transfer destination */
+    VkDeviceSize offset;          /**< of the content, in bytes */
+    VkDeviceSize size;            /**< of the content, in bytes */
+    VkPipelineStageFlags2 stages; /**< that wrote it last */
+    VkAccessFlags2 access;        /**< with which they wrote it */
+    uint64_t reserved[3];         /**< 0 */
+} RefletBuffer;
+
+/** At the start of RefletMissedRays::rays; the rays follow it. The same in GLSL's scalar and std430 layouts. */
+typedef struct RefletMissedRayHeader {
+    /** For vkCmdDispatchIndirect: groups of 64 threads, at most 65535 of them; y and z are 1. */
+    uint32_t groups[3];
+    uint32_t count; /**< of rays; of more than 64 * 65535 rays, a thread takes several, in steps of 64 * groups[0] */
+} RefletMissedRayHeader;
+
+/**
+ * A ray that the screen did not answer, or not with certainty. 48 bytes, the same in GLSL's scalar and std430 layouts:
+ * struct MissedRay { vec3 origin; float clear; vec3 direction; float rest; uint pixel, number; float spread, rough; };
+ */
+typedef struct RefletMissedRay {
+    /** World space, metres: the surface, moved along its geometric normal by what rounding of a 32-bit float depth
+     * takes. Coarser depth needs a bias of the host's own. */
+    float origin[3];
+    /** Metres from there that the screen shows to be free of what it resolves. Start at 0 to find what is thinner than
+     * a pixel. */
+    float clear;
+    float direction[3]; /**< world space, unit length */
+    float rest;      /**< share of the ray that is not answered yet, above 0 to 1; the screen's confidence: 1 - rest */
+    uint32_t pixel;  /**< of the view that it starts from, also with `downsample`: x + 65536 * y */
+    uint32_t number; /**< RefletLobeKind + 65536 * the number of the ray in its pixel */
+    /**
+     * 0: one direction. Else the ray stands for many, for prefiltered sources: specular
+     * (`specular.rough_fallback=mips`): the lobe of this perceptual roughness; diffuse (`diffuse.distribution=normal`),
+     * 1: the hemisphere around it.
+     */
+    float spread;
+    float roughness; /**< perceptual, of the surface that it starts from, 0 to 1 */
+} RefletMissedRay;
+
+/**
+ * The answer to a ray, at its place in RefletMissedRays::answers. All 0, as the library leaves it: no answer. 32 bytes,
+ * the same in GLSL's scalar and std430 layouts:
+ * struct RayAnswer { vec3 radiance; float confidence, distance; uint reserved[3]; };
+ */
+typedef struct RefletRayAnswer {
+    /** That arrives along the ray, in the unit of RefletIndirectLight::light. What is not finite is no answer. */
+    float radiance[3];
+    /** 0 to 1: the share of `rest` that it answers. The environment answers the rest of it. */
+    float confidence;
+    /**
+     * Metres to what was hit, 0 or more. Negative: nothing is there, and the environment answers the whole ray without
+     * the guess that it makes for rays that pass behind a surface (`environment.occluded_weight`).
+     */
+    float distance;
+    uint32_t reserved[3]; /**< 0 */
+} RefletRayAnswer;
+
+/** Result of refletMissedRays; its buffers are the host's until refletAnswerRays, and the library's from there on. */
+typedef struct RefletMissedRays {
+    size_t structSize;    /**< set by the host, too */
+    RefletBuffer rays;    /**< RefletMissedRayHeader, then RefletMissedRay of each; the host reads it */
+    RefletBuffer answers; /**< RefletRayAnswer of each ray, in their order, zero; the host writes it */
+    uint32_t capacity;    /**< the most rays, for which both have room: traced pixels times rays for each */
+} RefletMissedRays;
+
+/**
+ * Records rays of a lobe and the search of the screen, and lists what is left. Only one lobe at a time: until
+ * refletAnswerRays no lobe, refletComposite or refletEndFrame may be called, which would lose the rays; all of these
+ * are refused. Other effects and commands of the host may be. At most 16 rays a pixel. Barriers: `rays` and `answers`
+ * from their stages and access to the host's use.
+ */
+REFLET_API RefletResult refletMissedRays(RefletView view, RefletSettings settings, RefletLobeKind kind,
+                                         const RefletIndirectLight* light, RefletMissedRays* missed);
+
+/** What the host has done with RefletMissedRays::answers. */
+typedef struct RefletRayAnswers {
+    size_t structSize; /**< required */
+    /** That wrote the answers last; 0: a barrier has already made them visible to compute, or there are none. */
+    VkPipelineStageFlags2 stages;
+    VkAccessFlags2 access; /**< with which they wrote them */
+} RefletRayAnswers;
+
+/**
+ * Goes on with the rays of refletMissedRays: the host's answers, the environment for the rest, and denoising, with the
+ * settings that refletMissedRays was given, whatever has changed since. kind: as it was given. The result is that of
+ * refletDiffuseGi or refletReflections, and refletComposite takes it. Confidence counts rays that the host answered.
+ */
+REFLET_API RefletResult refletAnswerRays(RefletView view, RefletSettings settings, RefletLobeKind kind,
+                                         const RefletRayAnswers* answers, RefletLobe* lobe);
+
 /* -------------------------------------------------------------------------------------------------- pipelines --- */
 
 typedef enum RefletEffect {
@@ -618,7 +717,9 @@ typedef enum RefletEffect {
     REFLET_EFFECT_TEMPORAL = 1 << 6,
     REFLET_EFFECT_TONE_MAP = 1 << 7,
     REFLET_EFFECT_AMBIENT_OCCLUSION = 1 << 8,
-    REFLET_EFFECT_DEPTH_OF_FIELD = 1 << 9
+    REFLET_EFFECT_DEPTH_OF_FIELD = 1 << 9,
+    REFLET_EFFECT_MISSED_DIFFUSE_RAYS = 1 << 10,   /**< refletMissedRays and refletAnswerRays of the diffuse lobe */
+    REFLET_EFFECT_MISSED_REFLECTION_RAYS = 1 << 11 /**< and of the specular lobe */
 } RefletEffect;
 
 /** What the frames to come will be. */

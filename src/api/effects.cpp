@@ -1,4 +1,4 @@
-// The effects of the C API: checks, and what it hands out.
+// The effects of the C API but lobes: checks, and what it hands out.
 #include "api/calls.h"
 #include "api/frame.h"
 
@@ -10,7 +10,6 @@ namespace reflet::api {
 namespace {
 
 constexpr float realSun = 0.0093F;  // radians
-constexpr float largestFactor = 65504.0F;
 
 template <class T>
 void checkOut(T* out, const char* name) {
@@ -87,72 +86,6 @@ SunInputs sunInputs(const RefletSunShadow& sun, const Settings& settings) {
         start = end;
     }
     return in;
-}
-
-EnvironmentInputs environmentInputs(const RefletEnvironment& environment, HostImages& host) {
-    EnvironmentInputs in;
-    in.image = host.add(environment.image);
-    in.from = environment.image.view;
-    in.revision = environment.revision;
-    vec3 factor(environment.factor[0], environment.factor[1], environment.factor[2]);
-    if (in.image && factor == vec3(0.0F)) {
-        factor = vec3(1.0F);
-    }
-    const vec3 up(environment.worldUp[0], environment.worldUp[1], environment.worldUp[2]);
-    in.params = lighting::environmentParams(factor, environment.rotation,
-                                            up == vec3(0.0F) ? vec3(0.0F, 1.0F, 0.0F) : glm::normalize(up));
-    return in;
-}
-
-void checkEnvironment(const RefletEnvironment& environment) {
-    for (int i = 0; i < 3; ++i) {
-        if (!(environment.factor[i] >= 0.0F && environment.factor[i] <= largestFactor)) {
-            failArgument("RefletEnvironment.factor[{}]: is {}; must be 0 to {}, as images are half floats", i,
-                         environment.factor[i], largestFactor);
-        }
-    }
-    if (!std::isfinite(environment.rotation)) {
-        failArgument("RefletEnvironment.rotation: is not finite");
-    }
-    const vec3 up(environment.worldUp[0], environment.worldUp[1], environment.worldUp[2]);
-    if (!std::isfinite(glm::dot(up, up)) || (up != vec3(0.0F) && !(glm::dot(up, up) > 1e-12F))) {
-        failArgument("RefletEnvironment.worldUp: is ({}, {}, {}); must be a direction, or all 0 for +Y", up.x, up.y,
-                     up.z);
-    }
-    if (environment.image.image != VK_NULL_HANDLE) {
-        checkImage(environment.image, "RefletEnvironment.image", uvec2(0), 3);
-    }
-}
-
-RefletLobe lobeOf(const LobeLight& light, size_t structSize) {
-    RefletLobe out{};
-    out.structSize = structSize;
-    out.radiance = resultOf(light.radiance);
-    out.confidence = resultOf(light.source);
-    out.downsample = light.from.scale;
-    return out;
-}
-
-RefletResult traceLobeOf(RefletView view, RefletSettings settings, const RefletIndirectLight* light, RefletLobe* lobe,
-                         uint32_t kind) {
-    return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
-        const RefletLobe asked = adopted<RefletLobe>(lobe, "lobe");
-        const RefletIndirectLight given = adopted(light, "RefletIndirectLight");
-        if (given.light.image == VK_NULL_HANDLE) {
-            failArgument("RefletIndirectLight.light.image: is VK_NULL_HANDLE, and is required");
-        }
-        checkImage(given.light, "RefletIndirectLight.light", view->size, 3);
-        const RefletEnvironment around = given.environment != nullptr
-                                             ? adopted(given.environment, "RefletIndirectLight.environment")
-                                             : RefletEnvironment{};
-        checkEnvironment(around);
-        HostImages host(*view);
-        const gpu::Image lit = host.add(given.light);
-        const EnvironmentInputs environment = environmentInputs(around, host);
-        host.acquire();
-        const RefletLobe out = lobeOf(recordLobe(*view, frame, values, kind, lit, environment), asked.structSize);
-        std::memcpy(lobe, &out, out.structSize);
-    });
 }
 
 // The image of an argument that may be NULL, which stands for `otherwise`.
@@ -239,40 +172,10 @@ RefletResult refletAmbientOcclusion(RefletView view, RefletSettings settings, Re
     });
 }
 
-RefletResult refletDiffuseGi(RefletView view, RefletSettings settings, const RefletIndirectLight* light,
-                             RefletLobe* lobe) {
-    return traceLobeOf(view, settings, light, lobe, lobeDiffuse);
-}
-
-RefletResult refletReflections(RefletView view, RefletSettings settings, const RefletIndirectLight* light,
-                               RefletLobe* lobe) {
-    return traceLobeOf(view, settings, light, lobe, lobeSpecular);
-}
-
-RefletResult refletDenoise(RefletView view, RefletSettings settings, RefletLobeKind kind, const RefletImage* noisy,
-                           RefletLobe* lobe) {
-    return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
-        const RefletLobe asked = adopted<RefletLobe>(lobe, "lobe");
-        if (kind != REFLET_LOBE_DIFFUSE && kind != REFLET_LOBE_SPECULAR) {
-            failArgument("kind: is {}; must be REFLET_LOBE_DIFFUSE or REFLET_LOBE_SPECULAR", static_cast<int>(kind));
-        }
-        if (noisy == nullptr || noisy->image == VK_NULL_HANDLE) {
-            failArgument("noisy: is NULL");
-        }
-        checkImage(*noisy, "noisy", view->size, 4);
-        HostImages host(*view);
-        const gpu::Image image = host.add(*noisy);
-        host.acquire();
-        const uint32_t which = kind == REFLET_LOBE_DIFFUSE ? lobeDiffuse : lobeSpecular;
-        RefletLobe out = lobeOf(recordDenoise(*view, frame, values, which, image), asked.structSize);
-        out.confidence = {};
-        std::memcpy(lobe, &out, out.structSize);
-    });
-}
-
 RefletResult refletComposite(RefletView view, RefletSettings settings, const RefletImage* light,
                              RefletComposite* composite) {
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
+        checkNonePending(frame);
         const RefletComposite given = adopted(composite, "RefletComposite");
         HostImages host(*view);
         const gpu::Image image = hostImageOf(light, "light", "the light that the lobes were given", host, view->size);

@@ -120,6 +120,20 @@ bool isEnvironmentNew(const ViewStore& own) {
     return own.environmentRests < frames;
 }
 
+// Imports what rays find, and the screen as they see it.
+ScreenImages screenForLobe(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image light,
+                           const EnvironmentInputs& environment) {
+    gpu::PassList& f = view.recorder;
+    noteEnvironment(view, lobe, environment);
+    frame.context.environment = environmentLight(view, environment);
+    const lighting::ViewContext& context = contextOf(view, frame);
+    f.release(frame.light);  // of the other lobe
+    frame.light = hostRadiance(view, settings, boundOf(view, frame), light, false);
+    return lighting::lightAtHits(f, context, settings, lobe,
+                                 lighting::screenOf(f, context, settings, frame, frame.light, litOf(view, frame)),
+                                 frame.diffuse ? &*frame.diffuse : nullptr);
+}
+
 LobeStore& storeOf(RefletView_T& view, uint32_t lobe) {
     return lobe == lobeDiffuse ? view.store->diffuse : view.store->specular;
 }
@@ -228,19 +242,32 @@ gpu::Image recordAmbientOcclusion(RefletView_T& view, Frame& frame, const Settin
 
 LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image light,
                      const EnvironmentInputs& environment) {
-    gpu::PassList& f = view.recorder;
-    noteEnvironment(view, lobe, environment);
-    frame.context.environment = environmentLight(view, environment);
-    const lighting::ViewContext& context = contextOf(view, frame);
-    f.release(frame.light);  // of the other lobe
-    frame.light = hostRadiance(view, settings, boundOf(view, frame), light, false);
-    const ScreenImages screen = lighting::lightAtHits(
-        f, context, settings, lobe, lighting::screenOf(f, context, settings, frame, frame.light, litOf(view, frame)),
-        frame.diffuse ? &*frame.diffuse : nullptr);
-    const LobeLight traced = lighting::traceLobe(f, &storeOf(view, lobe), context, settings, lobe, frame, screen, {});
+    const ScreenImages screen = screenForLobe(view, frame, settings, lobe, light, environment);
+    const LobeLight traced =
+        lighting::traceLobe(view.recorder, &storeOf(view, lobe), frame.context, settings, lobe, frame, screen, {});
     (lobe == lobeDiffuse ? frame.diffuse : frame.specular) = traced;
     finishCall(view, frame);
     return traced;
+}
+
+MissedRays recordMissedRays(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image light,
+                            const EnvironmentInputs& environment) {
+    const ScreenImages screen = screenForLobe(view, frame, settings, lobe, light, environment);
+    frame.pending =
+        lighting::beginLobe(view.recorder, &storeOf(view, lobe), frame.context, settings, lobe, frame, screen);
+    finishCall(view, frame);
+    return frame.pending->missed;
+}
+
+LobeLight recordAnswers(RefletView_T& view, Frame& frame) {
+    const lighting::PendingLobe pending = *frame.pending;
+    frame.pending.reset();
+    const LobeLight answered =
+        lighting::finishLobe(view.recorder, &storeOf(view, pending.lobe), frame.context, frame, pending);
+    (pending.lobe == lobeDiffuse ? frame.diffuse : frame.specular) = answered;
+    finishCall(view, frame);
+    releaseMissed(view.recorder, pending.begun, pending.missed);
+    return answered;
 }
 
 LobeLight recordDenoise(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image noisy) {

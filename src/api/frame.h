@@ -51,6 +51,10 @@ private:
     std::vector<VkImageMemoryBarrier2> back_;  ///< made by acquire(): the destructor must not allocate
 };
 
+const char* lobeName(uint32_t lobe);
+/// Throws Failure while rays wait for a host's answers: other lobes would change what these read, or miss their light.
+void checkNonePending(const Frame& frame);
+
 /// A result for the host.
 RefletImage resultOf(const gpu::Image& image);
 
@@ -77,6 +81,11 @@ gpu::Image recordContactShadows(RefletView_T& view, Frame& frame, const Settings
 gpu::Image recordAmbientOcclusion(RefletView_T& view, Frame& frame, const Settings& settings);
 LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image light,
                      const EnvironmentInputs& environment);
+/// The first half of recordLobe: rays, the screen, and what is left for the host, in frame.pending.
+MissedRays recordMissedRays(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image light,
+                            const EnvironmentInputs& environment);
+/// The second half, once the host has answered them.
+LobeLight recordAnswers(RefletView_T& view, Frame& frame);
 LobeLight recordDenoise(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image noisy);
 /// light: none: what the lobes were given.
 lighting::Light recordComposite(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image light);

@@ -94,6 +94,7 @@ struct Frame : lighting::Surfaces {
     gpu::Image display;
     std::optional<LobeLight> diffuse;
     std::optional<LobeLight> specular;
+    std::optional<lighting::PendingLobe> pending;  ///< whose rays wait for the host's answers
     float elapsed = 0.0F;
     reflet::lighting::Change change;
     bool showsEnvironment = false;  ///< RefletFrameInfo::backgroundIsEnvironment

@@ -12,7 +12,7 @@ namespace reflet::api {
 
 namespace {
 
-constexpr uint32_t allEffects = 2 * REFLET_EFFECT_DEPTH_OF_FIELD - 1;
+constexpr uint32_t allEffects = 2 * REFLET_EFFECT_MISSED_REFLECTION_RAYS - 1;
 
 // Stand-ins for the host's images: passes that are only prepared never read them.
 class StandIns {
@@ -34,7 +34,7 @@ private:
 };
 
 // Where a lobe's light comes from.
-enum class LobeFrom : uint8_t { nowhere, rays, host };
+enum class LobeFrom : uint8_t { nowhere, rays, host, answeredRays };
 
 // A frame of some of the effects that a host has asked for.
 struct FrameKind {
@@ -44,15 +44,7 @@ struct FrameKind {
     bool skyMoves = false;  // the picture shows an environment, and the camera turns
 };
 
-FrameKind wholeFrame(uint32_t effects) {
-    const auto from = [&](RefletEffect rays) {
-        const bool denoises = (effects & REFLET_EFFECT_DENOISE) != 0;
-        return (effects & rays) != 0 ? LobeFrom::rays : denoises ? LobeFrom::host : LobeFrom::nowhere;
-    };
-    return {effects, from(REFLET_EFFECT_DIFFUSE_GI), from(REFLET_EFFECT_REFLECTIONS)};
-}
-
-std::vector<LobeFrom> choicesOf(uint32_t effects, RefletEffect rays) {
+std::vector<LobeFrom> choicesOf(uint32_t effects, RefletEffect rays, RefletEffect missed) {
     std::vector<LobeFrom> choices{LobeFrom::nowhere};
     if ((effects & rays) != 0) {
         choices.push_back(LobeFrom::rays);
@@ -60,7 +52,19 @@ std::vector<LobeFrom> choicesOf(uint32_t effects, RefletEffect rays) {
     if ((effects & REFLET_EFFECT_DENOISE) != 0) {
         choices.push_back(LobeFrom::host);
     }
+    if ((effects & missed) != 0) {
+        choices.push_back(LobeFrom::answeredRays);
+    }
     return choices;
+}
+
+FrameKind wholeFrame(uint32_t effects) {
+    const auto from = [&](RefletEffect rays, RefletEffect missed) {
+        const auto choices = choicesOf(effects, rays, missed);
+        return choices.size() > 1 ? choices[1] : LobeFrom::nowhere;
+    };
+    return {effects, from(REFLET_EFFECT_DIFFUSE_GI, REFLET_EFFECT_MISSED_DIFFUSE_RAYS),
+            from(REFLET_EFFECT_REFLECTIONS, REFLET_EFFECT_MISSED_REFLECTION_RAYS)};
 }
 
 // Frames whose passes are all that frames of any of these effects can have: each effect may run or not. Effects that
@@ -68,8 +72,9 @@ std::vector<LobeFrom> choicesOf(uint32_t effects, RefletEffect rays) {
 std::vector<FrameKind> frameKinds(const RefletPrepareInfo& info) {
     const uint32_t all = info.effects;
     std::vector<FrameKind> kinds;
-    for (const LobeFrom diffuse : choicesOf(all, REFLET_EFFECT_DIFFUSE_GI)) {
-        for (const LobeFrom specular : choicesOf(all, REFLET_EFFECT_REFLECTIONS)) {
+    for (const LobeFrom diffuse : choicesOf(all, REFLET_EFFECT_DIFFUSE_GI, REFLET_EFFECT_MISSED_DIFFUSE_RAYS)) {
+        for (const LobeFrom specular :
+             choicesOf(all, REFLET_EFFECT_REFLECTIONS, REFLET_EFFECT_MISSED_REFLECTION_RAYS)) {
             kinds.push_back({all, diffuse, specular});
             kinds.push_back({all & ~REFLET_EFFECT_TEMPORAL, diffuse, specular});
         }
@@ -111,6 +116,9 @@ void prepareLobes(RefletView_T& view, Frame& frame, const Settings& settings, co
             recordLobe(view, frame, settings, lobe, color, environment);
         } else if (from == LobeFrom::host) {
             recordDenoise(view, frame, settings, lobe, color);
+        } else if (from == LobeFrom::answeredRays) {
+            recordMissedRays(view, frame, settings, lobe, color, environment);
+            recordAnswers(view, frame);
         }
     }
 }

@@ -358,6 +358,7 @@ RefletResult refletEndFrame(RefletView view) {
         if (!view->frame) {
             failArgument("view: no frame has begun; call refletBeginFrame first");
         }
+        checkNonePending(*view->frame);
         view->recorder.end();
         view->composedLast = static_cast<bool>(view->frame->composed);
         view->store->lastGeneration = view->recorder.generation();

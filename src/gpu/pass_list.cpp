@@ -204,9 +204,24 @@ void PassList::release(Image image) {
     }
     TransientImage& of = transientOf(*image.state);
     if (of.kept && of.list != list_) {
-        std::erase(memory_.heaps()[of.needs.heap].taken, MemoryRange{of.offset, of.needs.size});
+        freePlace(of.needs, of.offset);
         of.kept = false;
     }
+}
+
+void PassList::release(BufferView buffer) {
+    if (!buffer || buffer.state->transient < 0) {
+        return;
+    }
+    TransientBuffer& of = transientOf(*buffer.state);
+    if (of.kept && of.list != list_) {
+        freePlace(of.needs, of.offset);
+        of.kept = false;
+    }
+}
+
+void PassList::freePlace(const TransientMemory::Needs& needs, VkDeviceSize offset) {
+    std::erase(memory_.heaps()[needs.heap].taken, MemoryRange{offset, needs.size});
 }
 
 void PassList::checkUsable(const Image& image) const {

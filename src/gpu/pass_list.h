@@ -69,6 +69,7 @@ public:
     [[nodiscard]] bool isKept(Image image) const;
     /// Takes that back for what an earlier list has written. May be none.
     void release(Image image);
+    void release(BufferView buffer);
 
     /// An image whose memory others use while nobody needs its contents: for HistoryImage.
     std::shared_ptr<HeldImage> hold(const ImageInfo& info, const std::string& name) { return memory_.hold(info, name); }
@@ -128,6 +129,7 @@ protected:
         uint64_t list = 0;
         bool kept = false;
         TransientMemory::Needs needs;
+        VkDeviceSize offset = 0;  ///< as of images
     };
 
     /// Starts a frame.
@@ -165,6 +167,7 @@ private:
     void appendTransfer(PassRecord& record);
     /// Fails for what lived only in an earlier list of this frame.
     void checkUsable(const Image& image) const;
+    void freePlace(const TransientMemory::Needs& needs, VkDeviceSize offset);
     void checkUsable(const BufferView& buffer) const;
     [[nodiscard]] const std::vector<BufferView>& drawnBuffers() const { return drawnBuffers_; }
     Image transientImage(std::string_view name, const ImageInfo& info);

@@ -214,9 +214,9 @@ void Recorder::flush() {
         const GraphResource& resource = cached.graph.resources[r];
         if (resource.output && cached.plan.offsets[r] != Plan::unplaced) {
             memory().heaps()[resource.heap].taken.push_back({cached.plan.offsets[r], resource.size});
-            if (resources_[r].image) {
-                transientOf(*resources_[r].image.state).offset = cached.plan.offsets[r];
-            }
+            VkDeviceSize& offset = resources_[r].image ? transientOf(*resources_[r].image.state).offset
+                                                       : transientOf(*resources_[r].buffer.state).offset;
+            offset = cached.plan.offsets[r];
         }
     }
     for (const Listed& of : resources_) {

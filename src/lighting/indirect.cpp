@@ -1,6 +1,7 @@
 // Records the stages of indirect light.
 #include "lighting/indirect.h"
 
+#include "base/error.h"
 #include "effects/composite/composite.h"
 #include "effects/light_mips/light_mips.h"
 #include "effects/lobe/answer_environment.h"
@@ -63,8 +64,36 @@ std::vector<RaySource> orderOf(const LightingSettings& settings, const ScreenIma
         order.emplace_back(
             [&screen, march, longest](gpu::PassList& f, Rays& rays) { traceScreen(f, rays, screen, march, longest); });
     }
-    order.insert(order.end(), sources.others.begin(), sources.others.end());
     return order;
+}
+
+// Refers to what it is given. first: the screen, if it is asked before all others.
+LobeInputs inputsOf(const ViewContext& in, const LightingSettings& settings, uint32_t lobe, const Surfaces& surfaces,
+                    const ScreenSource& first) {
+    LobeSettings rays = lobe == lobeDiffuse ? lobeSettings(settings.diffuse) : lobeSettings(settings.specular);
+    rays.rays = in.unlit ? 0 : rays.rays;
+    return {.lobe = lobe,
+            .g = surfaces.g,
+            .view = in.view,
+            .settings = rays,
+            .diffuse = settings.diffuse,
+            .specular = settings.specular,
+            .denoise = settings.denoise,
+            .environmentSettings = settings.environment,
+            .environment = in.environment,
+            .ggxTable = in.ggxTable,
+            .blueNoise = in.blueNoise,
+            .screen = first,
+            .sources = {},
+            .others = {},
+            .ambientOcclusion = surfaces.ambientOcclusion,
+            .countSteps = settings.traceScreen.countSteps != 0,
+            .coneShare = settings.traceScreen.enabled != 0 ? coneShareOnScreen : 0.0F};
+}
+
+ScreenImages screenForLobe(const ViewContext& in, uint32_t lobe, ScreenImages seen) {
+    seen.leavesOutEmitters = in.emitterLamps && lobe == lobeDiffuse;
+    return seen;
 }
 
 // Whether rays would read the last picture, and there is none: in the first frame.
@@ -74,33 +103,16 @@ bool lacksPicture(const ViewContext& in, const LightingSettings& settings, const
 
 LobeLight traceOnce(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
                     uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen, const RaySources& sources) {
-    ScreenImages screen = seen;
-    screen.leavesOutEmitters = in.emitterLamps && lobe == lobeDiffuse;
-    const bool marched = settings.traceScreen.enabled != 0;
-    const bool first = marched && !startsWithMirrors(sources, lobe);
+    const ScreenImages screen = screenForLobe(in, lobe, seen);
+    const bool first = settings.traceScreen.enabled != 0 && !startsWithMirrors(sources, lobe);
     const std::vector<RaySource> order = orderOf(settings, screen, sources, lobe);
-    LobeSettings rays = lobe == lobeDiffuse ? lobeSettings(settings.diffuse) : lobeSettings(settings.specular);
-    rays.rays = in.unlit ? 0 : rays.rays;
-    return reflet::traceLobe(
-        f, history,
-        {.lobe = lobe,
-         .g = surfaces.g,
-         .view = in.view,
-         .settings = rays,
-         .diffuse = settings.diffuse,
-         .specular = settings.specular,
-         .denoise = settings.denoise,
-         .environmentSettings = settings.environment,
-         .environment = in.environment,
-         .ggxTable = in.ggxTable,
-         .blueNoise = in.blueNoise,
-         .screen = {first ? &screen : nullptr, marchOf(settings, screen), longestRay(settings, lobe)},
-         .sources = order,
-         .ambientOcclusion = surfaces.ambientOcclusion,
-         .lit = screen.lit,
-         .randomTracing = tracesAtRandom(settings, sources),
-         .countSteps = settings.traceScreen.countSteps != 0,
-         .coneShare = marched ? coneShareOnScreen : 0.0F});
+    LobeInputs inputs = inputsOf(in, settings, lobe, surfaces,
+                                 {first ? &screen : nullptr, marchOf(settings, screen), longestRay(settings, lobe)});
+    inputs.sources = order;
+    inputs.others = sources.others;
+    inputs.lit = screen.lit;
+    inputs.randomTracing = tracesAtRandom(settings, sources);
+    return reflet::traceLobe(f, history, inputs);
 }
 
 // What rays read at hits, with the reflections that have been traced.
@@ -112,7 +124,53 @@ gpu::Image withReflections(gpu::PassList& f, const ViewContext& in, const Screen
     return composite(f, parts, sum, {in.view, 1.0F}).lit;
 }
 
+// The screen as reflection rays read it. Where there is no last picture, they are traced once before, so that mirrors
+// show what mirrors show.
+ScreenImages litOnce(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
+                     uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen, const RaySources& sources) {
+    if (lobe != lobeSpecular || settings.traceScreen.enabled == 0 || !lacksPicture(in, settings, seen)) {
+        return seen;
+    }
+    const LobeLight traced = traceOnce(f, history, in, settings, lobe, surfaces, seen, sources);
+    if (traced.dark) {
+        return seen;
+    }
+    const auto scope = f.scope("specular");
+    ScreenImages lit = seen;
+    lit.light = withReflections(f, in, seen, traced);
+    if (lit.lightMips) {
+        lit.lightMips = makeLightMips(f, lit.light);
+    }
+    return lit;
+}
+
 }  // namespace
+
+PendingLobe beginLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
+                      uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen) {
+    const ScreenImages screen = screenForLobe(in, lobe, litOnce(f, history, in, settings, lobe, surfaces, seen, {}));
+    const bool marched = settings.traceScreen.enabled != 0;
+    LobeInputs inputs = inputsOf(in, settings, lobe, surfaces,
+                                 {marched ? &screen : nullptr, marchOf(settings, screen), longestRay(settings, lobe)});
+    inputs.lit = screen.lit;
+    inputs.randomTracing = tracesAtRandom(settings, {});
+    if (inputs.settings.rays == 0) {
+        failUsage("{}.rays: is 0, so that no rays can miss; set 1 or more",
+                  lobe == lobeDiffuse ? "diffuse" : "specular");
+    }
+    PendingLobe pending{lobe, settings, reflet::beginLobe(f, history, inputs), {}};
+    const auto scope = f.scope(lobe == lobeDiffuse ? "diffuse" : "specular");
+    pending.missed = listMissed(f, pending.begun);
+    return pending;
+}
+
+LobeLight finishLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const Surfaces& surfaces,
+                     const PendingLobe& pending) {
+    const RaySource host = [&](gpu::PassList& list, Rays& rays) { takeAnswers(list, rays, pending.missed.answers); };
+    LobeInputs inputs = inputsOf(in, pending.settings, pending.lobe, surfaces, {});
+    inputs.others = {&host, 1};
+    return reflet::finishLobe(f, history, inputs, pending.begun);
+}
 
 ScreenImages screenOf(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings, Surfaces& surfaces,
                       gpu::Image direct, const gpu::History& lit) {
@@ -134,18 +192,10 @@ bool readsScreenLight(const LightingSettings& settings, const RaySources& source
 
 LobeLight traceLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
                     uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen, const RaySources& sources) {
-    const LobeLight traced = traceOnce(f, history, in, settings, lobe, surfaces, seen, sources);
-    if (lobe != lobeSpecular || traced.dark || settings.traceScreen.enabled == 0 || !lacksPicture(in, settings, seen)) {
-        return traced;
-    }
-    const auto scope = f.scope("specular");
-    ScreenImages lit = seen;
-    lit.light = withReflections(f, in, seen, traced);
-    if (lit.lightMips) {
-        lit.lightMips = makeLightMips(f, lit.light);
-    }
+    const ScreenImages lit = litOnce(f, history, in, settings, lobe, surfaces, seen, sources);
     return traceOnce(f, history, in, settings, lobe, surfaces, lit, sources);
 }
+
 LobeLight denoiseLobe(gpu::PassList& f, LobeStore& history, const ViewContext& in, const LightingSettings& settings,
                       uint32_t lobe, const Surfaces& surfaces, gpu::Image noisy) {
     const auto scope = f.scope(lobe == lobeDiffuse ? "diffuse" : "specular");

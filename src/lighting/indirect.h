@@ -2,6 +2,7 @@
 #pragma once
 
 #include "effects/lobe/lobe.h"
+#include "effects/lobe/missed_rays.h"
 #include "effects/planar/planar.h"
 #include "lighting/settings.h"
 #include "lighting/surfaces.h"
@@ -32,6 +33,24 @@ bool readsScreenLight(const LightingSettings& settings, const RaySources& source
 /// a frame without one: what is lit by reflections alone, such as metal, would be black in mirrors.
 LobeLight traceLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
                     uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen, const RaySources& sources);
+
+/// A lobe whose rays a host answers behind the screen.
+struct PendingLobe {
+    uint32_t lobe = lobeDiffuse;
+    LightingSettings settings;  ///< of both halves
+    BegunLobe begun;
+    MissedRays missed;
+};
+
+/// The first half of traceLobe with a host's own source: rays, answered by the screen, and what is left of them for the
+/// host. Throws UsageError if the settings have no rays, or more than fit.
+PendingLobe beginLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
+                      uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen);
+
+/// The second half: the host has written pending.missed.answers. Everything else is as for beginLobe; the passes may be
+/// in a later list of the frame. Once that is recorded, releaseMissed gives the memory back.
+LobeLight finishLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const Surfaces& surfaces,
+                     const PendingLobe& pending);
 
 /// A lobe that a host has traced, denoised. noisy: of importLight; radiance; alpha: hit distance [m].
 LobeLight denoiseLobe(gpu::PassList& f, LobeStore& history, const ViewContext& in, const LightingSettings& settings,

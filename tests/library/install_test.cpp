@@ -115,7 +115,7 @@ TEST_F(Install, TheExampleInCFindsItAndRendersThePicture) {
 
 TEST_F(Install, TheOtherExamplesBuild) {
     install();
-    for (const char* name : {"denoise", "window"}) {
+    for (const char* name : {"denoise", "raytraced", "window"}) {
         expectRuns(configure(REFLET_SOURCE "/examples/" + std::string(name), name));
         expectRuns("cmake --build " + at(name));
     }

@@ -7,13 +7,12 @@
 namespace reflet::test {
 namespace {
 
-constexpr uint32_t width = HostRoom::width;
-constexpr uint32_t height = HostRoom::height;
+constexpr uint32_t across = HostRoom::width;
 
 // A square on the wall, which the floor reflects.
 bool inSquare(size_t i) {
-    const auto x = static_cast<uint32_t>(i % width);
-    const auto y = static_cast<uint32_t>(i / width);
+    const auto x = static_cast<uint32_t>(i % across);
+    const auto y = static_cast<uint32_t>(i / across);
     return x >= 24 && x < 40 && y >= 10 && y < 16;
 }
 
@@ -35,14 +34,14 @@ protected:
         for (size_t i = 0; i < texels_.size(); ++i) {
             mask.emplace_back(0.0F, 0.0F, inSquare(i) ? inside : 0.0F, 0.0F);
         }
-        return host_.makeImage(VK_FORMAT_R32G32B32A32_SFLOAT, width, height, mask);
+        return host_.makeImage(VK_FORMAT_R32G32B32A32_SFLOAT, across, HostRoom::height, mask);
     }
     RefletImage light(float square) {
         std::vector<vec4> changed = texels_;
         for (size_t i = 0; i < changed.size(); ++i) {
             changed[i] = inSquare(i) ? vec4(vec3(square), 1.0F) : changed[i];
         }
-        return host_.makeImage(VK_FORMAT_R32G32B32A32_SFLOAT, width, height, changed);
+        return host_.makeImage(VK_FORMAT_R32G32B32A32_SFLOAT, across, HostRoom::height, changed);
     }
     struct Out {
         std::vector<vec4> lit;
@@ -82,7 +81,7 @@ protected:
     // Sum over the floor.
     static float reflected(const Out& out) {
         float sum = 0.0F;
-        for (size_t i = size_t(width) * 22; i < out.specular.size(); ++i) {
+        for (size_t i = size_t(across) * 22; i < out.specular.size(); ++i) {
             sum += out.specular[i].y;
         }
         return sum;
@@ -139,7 +138,7 @@ TEST_F(Masks, AntialiasingForgetsWhatIsReactive) {
     EXPECT_REFLET(refletSetSetting(settings_, "temporal.clip", "0"));
     const std::vector<RefletImage> lights = {light(1.0F), light(1.0F), light(1.0F), light(3.0F)};
     RefletGBuffer g = gbuffer();
-    const size_t middle = size_t(width) * 13 + 32;
+    const size_t middle = size_t(across) * 13 + 32;
     const float kept = render(g, lights).antialiased[middle].y;
     g.reactive = mask(1.0F);
     g.reactiveChannel = 2;
@@ -150,8 +149,8 @@ TEST_F(Masks, AntialiasingForgetsWhatIsReactive) {
     const float half = render(g, lights).antialiased[middle].y;
     EXPECT_GT(half, kept + 0.1F);
     EXPECT_LT(half, forgotten.antialiased[middle].y - 0.1F);
-    EXPECT_NEAR(forgotten.antialiased[size_t(width) * 30 + 10].w,
-                render(gbuffer(), lights).antialiased[size_t(width) * 30 + 10].w, 0.01F)
+    EXPECT_NEAR(forgotten.antialiased[size_t(across) * 30 + 10].w,
+                render(gbuffer(), lights).antialiased[size_t(across) * 30 + 10].w, 0.01F)
         << "the rest keeps its history";
 }
 

@@ -1,6 +1,7 @@
 // Records a lobe: picks surfaces, generates rays, asks the sources in turn, resolves and denoises.
 #include "effects/lobe/lobe.h"
 
+#include "base/error.h"
 #include "effects/lobe/adaptive_rays.h"
 #include "effects/lobe/reuse_rays.h"
 #include "effects/lobe/trace_slices.h"
@@ -44,75 +45,127 @@ RayTiles tilesOfLobe(gpu::PassList& f, LobeStore* own, const RaySurfaces& from, 
                       past.valid && in.lit.valid});
 }
 
-// Rays of one batch, answered by the sources in turn.
-Rays answeredRays(gpu::PassList& f, const LobeInputs& in, const RayGeneration& generation, bool sliced) {
-    Rays rays = sliced ? startSlices(f, generation, in.screen, in.diffuse.sliceSteps) : generateRays(f, generation);
-    if (in.screen.images != nullptr && !sliced) {
+// separate: rays must be in memory, in one batch.
+LobePlan planLobe(gpu::PassList& f, LobeStore* own, const LobeInputs& in, bool separate) {
+    const LobeSettings& s = in.settings;
+    LobePlan plan;
+    plan.from = pickSurfaces(f, in.g, in.view, s.downsample);
+    plan.from.ambientOcclusion = in.ambientOcclusion;
+    plan.tiles = tilesOfLobe(f, own, plan.from, in);
+    const bool varies = plan.tiles.meanRays > 0;
+    const bool reflects = in.lobe == lobeSpecular;
+    plan.imageMotion = reflects && keepsHistory(own, in.denoise) ? noImageMotion(f, plan.from) : gpu::Image{};
+    // Rays that nothing reads between the passes need not be written.
+    plan.atOnce = !separate && in.sources.empty() && in.others.empty() && s.reuse == 0 && !varies;
+    plan.sliced = !reflects && in.diffuse.method == DiffuseMethod::slices && in.screen.images != nullptr &&
+                  in.diffuse.distribution == RayDistribution::cosine && !varies;
+    const uint32_t fit = plan.atOnce ? maxRaysAtOnce : raysPerBatch(f, plan.from.g.depth.size);
+    plan.batch = varies || separate ? plan.tiles.mostRays : fit;
+    plan.reused = s.reuse > 0 && !varies && fit >= s.rays;
+    plan.directional = !reflects && in.denoise.enabled != 0 && in.denoise.directional != 0;
+    return plan;
+}
+
+// Of the batch that begins with ray `first` of each pixel.
+RayGeneration generationOf(const LobeInputs& in, const LobePlan& plan, uint32_t first) {
+    const uint32_t count = std::min(plan.tiles.mostRays - first, plan.batch);
+    return {.from = plan.from,
+            .tiles = plan.tiles,
+            .ggxTable = in.ggxTable,
+            .blueNoise = in.blueNoise,
+            .noise = in.settings.noise,
+            .lobe = in.lobe,
+            .params = {{}, in.diffuse, in.specular, first, count, in.coneShare},
+            .imageMotion = plan.imageMotion,
+            .countSteps = in.countSteps,
+            .directional = plan.directional};
+}
+
+LobeLight emptyLight(gpu::PassList& f, const LobeInputs& in, const LobePlan& plan) {
+    LobeLight light = lobeImages(f, plan.from, in.countSteps, plan.directional);
+    light.tiles = plan.tiles;
+    light.imageMotion = plan.imageMotion;
+    return light;
+}
+
+Rays beginBatch(gpu::PassList& f, const LobeInputs& in, const LobePlan& plan, const RayGeneration& generation) {
+    Rays rays =
+        plan.sliced ? startSlices(f, generation, in.screen, in.diffuse.sliceSteps) : generateRays(f, generation);
+    if (in.screen.images != nullptr && !plan.sliced) {
         traceScreen(f, rays, *in.screen.images, in.screen.settings, in.screen.longest);
     }
     for (const RaySource& source : in.sources) {
         source(f, rays);
     }
-    answerEnvironment(f, rays, in.environment, in.environmentSettings);
     return rays;
+}
+
+void finishBatch(gpu::PassList& f, const LobeInputs& in, const LobePlan& plan, Rays rays, const LobeLight& light) {
+    for (const RaySource& source : in.others) {
+        source(f, rays);
+    }
+    answerEnvironment(f, rays, in.environment, in.environmentSettings);
+    if (plan.reused) {
+        reuseRays(f, light, rays, in.view, in.settings.reuse);
+    } else {
+        resolveRays(f, light, rays);
+    }
+}
+
+void traceBatchAtOnce(gpu::PassList& f, const LobeInputs& in, const LobePlan& plan, const RayGeneration& generation,
+                      const LobeLight& light) {
+    const EnvironmentSource environment{in.environment, in.environmentSettings};
+    if (plan.sliced) {
+        slicesAtOnce(f, light, generation, in.screen, in.diffuse.sliceSteps, environment);
+    } else {
+        traceAtOnce(f, light, generation, in.screen, environment);
+    }
+}
+
+LobeLight denoised(gpu::PassList& f, LobeStore* own, const LobeInputs& in, const LobeLight& light) {
+    DenoiseStore* history = own != nullptr ? &own->denoise : nullptr;
+    return in.denoise.enabled != 0 ? denoise(f, history, light, in.lobe, in.view, in.denoise) : light;
 }
 
 }  // namespace
 
 LobeLight traceLobe(gpu::PassList& f, LobeStore* own, const LobeInputs& in) {
     const auto scope = f.scope(lobeNames[in.lobe]);
-    const LobeSettings& s = in.settings;
-    if (s.rays == 0) {
+    if (in.settings.rays == 0) {
         return blackLobe(f, {in.g, in.view}, in.countSteps);
     }
-    RaySurfaces from = pickSurfaces(f, in.g, in.view, s.downsample);
-    from.ambientOcclusion = in.ambientOcclusion;
-    const RayTiles tiles = tilesOfLobe(f, own, from, in);
-    const bool varies = tiles.meanRays > 0;
-    const uint32_t most = tiles.mostRays;
-    const bool reflects = in.lobe == lobeSpecular;
-    const gpu::Image imageMotion = reflects && keepsHistory(own, in.denoise) ? noImageMotion(f, from) : gpu::Image{};
-    // Rays that nothing reads between the passes need not be written.
-    const bool atOnce = in.sources.empty() && s.reuse == 0 && !varies;
-    const bool sliced = !reflects && in.diffuse.method == DiffuseMethod::slices && in.screen.images != nullptr &&
-                        in.diffuse.distribution == RayDistribution::cosine && !varies;
-    const uint32_t fit = atOnce ? maxRaysAtOnce : raysPerBatch(f, from.g.depth.size);
-    const uint32_t batch = varies ? most : fit;
-    const bool reused = s.reuse > 0 && !varies && batch >= s.rays;
-    const bool directional = !reflects && in.denoise.enabled != 0 && in.denoise.directional != 0;
-    LobeLight light = lobeImages(f, from, in.countSteps, directional);
-    light.tiles = tiles;
-    light.imageMotion = imageMotion;
-    for (uint32_t first = 0; first < most; first += batch) {
-        const RayGeneration generation{
-            .from = from,
-            .tiles = tiles,
-            .ggxTable = in.ggxTable,
-            .blueNoise = in.blueNoise,
-            .noise = s.noise,
-            .lobe = in.lobe,
-            .params = {{}, in.diffuse, in.specular, first, std::min(most - first, batch), in.coneShare},
-            .imageMotion = imageMotion,
-            .countSteps = in.countSteps,
-            .directional = directional};
-        if (atOnce && sliced) {
-            slicesAtOnce(f, light, generation, in.screen, in.diffuse.sliceSteps,
-                         {in.environment, in.environmentSettings});
-            continue;
-        }
-        if (atOnce) {
-            traceAtOnce(f, light, generation, in.screen, {in.environment, in.environmentSettings});
-            continue;
-        }
-        Rays rays = answeredRays(f, in, generation, sliced);
-        if (reused) {
-            reuseRays(f, light, rays, in.view, s.reuse);
+    const LobePlan plan = planLobe(f, own, in, false);
+    const LobeLight light = emptyLight(f, in, plan);
+    for (uint32_t first = 0; first < plan.tiles.mostRays; first += plan.batch) {
+        const RayGeneration generation = generationOf(in, plan, first);
+        if (plan.atOnce) {
+            traceBatchAtOnce(f, in, plan, generation, light);
         } else {
-            resolveRays(f, light, rays);
+            finishBatch(f, in, plan, beginBatch(f, in, plan, generation), light);
         }
     }
-    DenoiseStore* history = own != nullptr ? &own->denoise : nullptr;
-    return in.denoise.enabled != 0 ? denoise(f, history, light, in.lobe, in.view, in.denoise) : light;
+    return denoised(f, own, in, light);
+}
+
+BegunLobe beginLobe(gpu::PassList& f, LobeStore* own, const LobeInputs& in) {
+    const auto scope = f.scope(lobeNames[in.lobe]);
+    const LobePlan plan = planLobe(f, own, in, true);
+    const uvec2 size = plan.from.g.depth.size;
+    const uint32_t fit = raysPerBatch(f, size, maxRaysInList);
+    if (plan.batch > fit) {
+        failUsage(
+            "{0}.rays: {1} rays for each of {2}x{3} pixels do not fit into one list, which takes {4}; set fewer, "
+            "or a larger {0}.downsample",
+            lobeNames[in.lobe], plan.batch, size.x, size.y, fit);
+    }
+    return {plan, beginBatch(f, in, plan, generationOf(in, plan, 0))};
+}
+
+LobeLight finishLobe(gpu::PassList& f, LobeStore* own, const LobeInputs& in, const BegunLobe& begun) {
+    const auto scope = f.scope(lobeNames[in.lobe]);
+    const LobeLight light = emptyLight(f, in, begun.plan);
+    finishBatch(f, in, begun.plan, begun.rays, light);
+    return denoised(f, own, in, light);
 }
 
 }  // namespace reflet

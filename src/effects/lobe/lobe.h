@@ -22,7 +22,8 @@ struct LobeInputs {
     gpu::Image ggxTable;                 ///< of ggxTable
     gpu::BufferView blueNoise;           ///< noise/blue_noise.h
     ScreenSource screen;                 ///< asked first; may be none
-    std::span<const RaySource> sources;  ///< asked in turn, the most exact first; the environment answers what is left
+    std::span<const RaySource> sources;  ///< asked in turn after it, the most exact first: by beginLobe
+    std::span<const RaySource> others;   ///< asked after these, by finishLobe; the environment answers what is left
     gpu::Image ambientOcclusion;         ///< of ambientOcclusion(); may be none
     gpu::History lit;                    ///< the view's lit image, for adaptive sampling; may be none
     bool randomTracing = false;          ///< a source may answer the same ray differently the next time
@@ -36,7 +37,33 @@ struct LobeStore {
     DenoiseStore denoise;
 };
 
-/// The light of the lobe; black with no rays. own: none: without history, whatever the settings are.
+/// How the rays of a lobe are traced.
+struct LobePlan {
+    RaySurfaces from;
+    RayTiles tiles;
+    gpu::Image imageMotion;    ///< of LobeLight
+    uint32_t batch = 0;        ///< rays per pixel and batch, at most
+    bool atOnce = false;       ///< one pass traces and averages: no ray is written to memory
+    bool sliced = false;       ///< slices instead of rays on the screen
+    bool reused = false;       ///< LobeSettings::reuse applies
+    bool directional = false;  ///< LobeLight::directional is computed
+};
+
+/// A lobe whose rays wait for sources that are not at hand yet.
+struct BegunLobe {
+    LobePlan plan;
+    Rays rays;  ///< all of the lobe's, in one batch
+};
+
+/// The light of the lobe; black with no rays: beginLobe and finishLobe for each batch of rays, or both in one pass.
+/// own: none: without history, whatever the settings are.
 LobeLight traceLobe(gpu::PassList& f, LobeStore* own, const LobeInputs& in);
+
+/// Rays of the lobe, answered by in.screen and in.sources; in.settings.rays must not be 0. Throws UsageError if the
+/// rays do not fit into one batch.
+BegunLobe beginLobe(gpu::PassList& f, LobeStore* own, const LobeInputs& in);
+/// Has in.others and the environment answer what is left, and resolves and denoises the rays. in: as for beginLobe, but
+/// its screen and its sources are not read; the passes may be in a later list of the frame.
+LobeLight finishLobe(gpu::PassList& f, LobeStore* own, const LobeInputs& in, const BegunLobe& begun);
 
 }  // namespace reflet

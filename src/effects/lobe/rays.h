@@ -94,6 +94,9 @@ const uint lobeSpecular = 1;
 // Maximum rays per pixel in one batch; more are traced in several batches.
 const uint maxRaysPerBatch = 4;
 
+// Ray lists store the number of a ray in its pixel in 4 bits.
+const uint maxRaysInList = 16;
+
 // Ray lists store pixel coordinates in 14 bits.
 const uint maxFrameSize = 16384;
 

@@ -8,9 +8,9 @@
 #include "renderer/glass/glass_share.glsl"
 #include "renderer/trace_scene/scene_materials.h"
 #include "renderer/trace_scene/scene_triangles.glsl"
+#include "shaders/clearance.glsl"
 #include "shaders/noise.glsl"
 #include "shaders/shading_normal.glsl"
-#include "shaders/subpixel.glsl"
 
 // VertexAttributes (scene/scene.h); color: four 16-bit parts of 1.
 struct SceneVertex {
@@ -152,17 +152,6 @@ struct SceneSurface {
 };
 
 vec3 largestOf(vec3 a, vec3 b, vec3 c) { return max(abs(a), max(abs(b), abs(c))); }
-
-// Offset of ray origins from a surface, to compensate for rounded coordinates.
-const float relativeClearance = 4e-6;
-
-// The same for a point reconstructed from depth, `away` metres in front of the camera: depth and geometric normal are
-// rounded as well. Orthographic depth is rounded to about 1e-7 of the far distance. width: of the pixel there [m].
-float clearanceOfPixel(vec3 p, float away, vec4 depthToDistance, float width) {
-    vec3 size = abs(p);
-    float ofDepth = max(4e-7 * abs(depthToDistance.y), subpixel * width);
-    return max(4.0 * relativeClearance * max(max(size.x, size.y), max(size.z, away)), ofDepth);
-}
 
 vec3 sceneShadingNormal(SceneTriangle t, ScenePlace place, vec3 fallback) {
     SceneInstance instance = sceneInstances.items[t.instance];
