@@ -692,7 +692,10 @@ REFLET_API RefletResult refletMissedRays(RefletView view, RefletSettings setting
 /** What the host has done with RefletMissedRays::answers. */
 typedef struct RefletRayAnswers {
     size_t structSize; /**< required */
-    /** That wrote the answers last; 0: a barrier has already made them visible to compute, or there are none. */
+    /**
+     * That wrote the answers last, and read the rays; 0: a barrier has already made the answers visible to compute, or
+     * there are none.
+     */
     VkPipelineStageFlags2 stages;
     VkAccessFlags2 access; /**< with which they wrote them */
 } RefletRayAnswers;

@@ -103,13 +103,11 @@ RefletBuffer resultOf(const gpu::BufferView& buffer) {
     return result;
 }
 
-// The host's answers become visible to compute passes.
+// The host's answers become visible to compute passes. With stages 0 these still wait for whatever the host's commands
+// read of the rays: later passes of the frame get the memory.
 void acquireAnswers(RefletView_T& view, const RefletRayAnswers& given, const gpu::BufferView& answers) {
-    if (given.stages == 0) {
-        return;
-    }
     VkBufferMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
-    barrier.srcStageMask = given.stages;
+    barrier.srcStageMask = given.stages != 0 ? given.stages : VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     barrier.srcAccessMask = given.access;
     barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
     barrier.dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_READ_BIT;
