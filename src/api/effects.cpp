@@ -90,7 +90,7 @@ SunInputs sunInputs(const RefletSunShadow& sun, const Settings& settings) {
 
 EnvironmentInputs environmentInputs(const RefletEnvironment& environment, HostImages& host) {
     EnvironmentInputs in;
-    in.image = host.add(environment.image);
+    in.image = host.add(environment.image, uvec2(0));
     in.from = environment.image.view;
     in.revision = environment.revision;
     vec3 factor(environment.factor[0], environment.factor[1], environment.factor[2]);
@@ -118,7 +118,7 @@ void checkEnvironment(const RefletEnvironment& environment) {
                      up.z);
     }
     if (environment.image.image != VK_NULL_HANDLE) {
-        checkImage(environment.image, "RefletEnvironment.image", uvec2(0), 3);
+        checkImage(environment.image, "RefletEnvironment.image", {}, 3);
     }
 }
 
@@ -139,13 +139,13 @@ RefletResult traceLobeOf(RefletView view, RefletSettings settings, const RefletI
         if (given.light.image == VK_NULL_HANDLE) {
             failArgument("RefletIndirectLight.light.image: is VK_NULL_HANDLE, and is required");
         }
-        checkImage(given.light, "RefletIndirectLight.light", view->size, 3);
+        checkImage(given.light, "RefletIndirectLight.light", {frame.size, frame.inLarger}, 3);
         const RefletEnvironment around = given.environment != nullptr
                                              ? adopted(given.environment, "RefletIndirectLight.environment")
                                              : RefletEnvironment{};
         checkEnvironment(around);
         HostImages host(*view);
-        const gpu::Image lit = host.add(given.light);
+        const gpu::Image lit = host.add(given.light, frame.size);
         const EnvironmentInputs environment = environmentInputs(around, host);
         host.acquire();
         const RefletLobe out = lobeOf(recordLobe(*view, frame, values, kind, lit, environment), asked.structSize);
@@ -155,15 +155,15 @@ RefletResult traceLobeOf(RefletView view, RefletSettings settings, const RefletI
 
 // The image of an argument that may be NULL, which stands for `otherwise`.
 gpu::Image hostImageOf(const RefletImage* given, const char* name, const char* otherwise, HostImages& host,
-                       uvec2 size) {
+                       const Rectangle& read) {
     if (given == nullptr) {
         return {};
     }
     if (given->image == VK_NULL_HANDLE) {
         failArgument("{}.image: is VK_NULL_HANDLE; pass NULL for {}", name, otherwise);
     }
-    checkImage(*given, name, size, 3);
-    const gpu::Image image = host.add(*given);
+    checkImage(*given, name, read, 3);
+    const gpu::Image image = host.add(*given, read.size);
     host.acquire();
     return image;
 }
@@ -184,8 +184,8 @@ Lens lensOf(const RefletLens& lens) {
     return {lens.apertureRadius, lens.focusDistance, lens.blades, lens.bladeRotation};
 }
 
-gpu::Image colorOf(const RefletImage* color, HostImages& host, uvec2 size) {
-    return hostImageOf(color, "color", "the result of the effect before", host, size);
+gpu::Image colorOf(const RefletImage* color, HostImages& host, const Rectangle& read) {
+    return hostImageOf(color, "color", "the result of the effect before", host, read);
 }
 
 }  // namespace
@@ -203,10 +203,10 @@ RefletResult refletSunShadow(RefletView view, RefletSettings settings, const Ref
         if (given.map.image == VK_NULL_HANDLE) {
             failArgument("RefletSunShadow.map.image: is VK_NULL_HANDLE, and is required");
         }
-        checkImage(given.map, "RefletSunShadow.map", uvec2(0), depthChannel);
+        checkImage(given.map, "RefletSunShadow.map", {}, depthChannel);
         SunInputs in = sunInputs(given, values);
         HostImages host(*view);
-        in.map = host.add(given.map, given.cascades);
+        in.map = host.add(given.map, uvec2(0), given.cascades);
         host.acquire();
         *visibility = resultOf(recordSunShadow(*view, frame, values, in));
     });
@@ -239,9 +239,9 @@ RefletResult refletDenoise(RefletView view, RefletSettings settings, RefletLobeK
         if (noisy == nullptr || noisy->image == VK_NULL_HANDLE) {
             failArgument("noisy: is NULL");
         }
-        checkImage(*noisy, "noisy", view->size, 4);
+        checkImage(*noisy, "noisy", {frame.size, frame.inLarger}, 4);
         HostImages host(*view);
-        const gpu::Image image = host.add(*noisy);
+        const gpu::Image image = host.add(*noisy, frame.size);
         host.acquire();
         const uint32_t which = kind == REFLET_LOBE_DIFFUSE ? lobeDiffuse : lobeSpecular;
         RefletLobe out = lobeOf(recordDenoise(*view, frame, values, which, image), asked.structSize);
@@ -255,7 +255,8 @@ RefletResult refletComposite(RefletView view, RefletSettings settings, const Ref
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
         const RefletComposite given = adopted(composite, "RefletComposite");
         HostImages host(*view);
-        const gpu::Image image = hostImageOf(light, "light", "the light that the lobes were given", host, view->size);
+        const gpu::Image image =
+            hostImageOf(light, "light", "the light that the lobes were given", host, {frame.size, frame.inLarger});
         const lighting::Light sum = recordComposite(*view, frame, values, image);
         RefletComposite result{};
         result.structSize = given.structSize;
@@ -271,7 +272,8 @@ RefletResult refletTemporal(RefletView view, RefletSettings settings, const Refl
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
         checkOut(antialiased, "antialiased");
         HostImages host(*view);
-        *antialiased = resultOf(recordTemporal(*view, frame, values, colorOf(color, host, view->size)));
+        *antialiased =
+            resultOf(recordTemporal(*view, frame, values, colorOf(color, host, {frame.size, frame.inLarger})));
     });
 }
 
@@ -281,7 +283,8 @@ RefletResult refletDepthOfField(RefletView view, RefletSettings settings, const 
         checkOut(blurred, "blurred");
         const Lens thin = lensOf(adopted(lens, "RefletLens"));
         HostImages host(*view);
-        *blurred = resultOf(recordDepthOfField(*view, frame, values, thin, colorOf(color, host, outputSizeOf(*view))));
+        *blurred = resultOf(recordDepthOfField(*view, frame, values, thin,
+                                               colorOf(color, host, {outputSizeOf(*view), frame.inLarger})));
     });
 }
 
@@ -291,7 +294,7 @@ RefletResult refletToneMap(RefletView view, RefletSettings settings, const Refle
         checkOut(display, "display");
         checkBoolean(autoExposure, "autoExposure");
         HostImages host(*view);
-        *display =
-            resultOf(recordToneMap(*view, frame, values, colorOf(color, host, outputSizeOf(*view)), autoExposure != 0));
+        *display = resultOf(recordToneMap(
+            *view, frame, values, colorOf(color, host, {outputSizeOf(*view), frame.inLarger}), autoExposure != 0));
     });
 }

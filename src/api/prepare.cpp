@@ -24,7 +24,7 @@ public:
         return {&state, -1, VK_FORMAT_R16G16B16A16_SFLOAT, size, 1, 1};
     }
     gpu::Image makeIfGiven(const RefletImage& image) {
-        return image.image != VK_NULL_HANDLE ? make(view_.size) : gpu::Image{};
+        return image.image != VK_NULL_HANDLE ? make(view_.renderSize) : gpu::Image{};
     }
 
 private:
@@ -36,10 +36,11 @@ void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrep
     StandIns standIns(view);
     const auto asked = [&](RefletEffect effect) { return (info.effects & effect) != 0; };
     Frame frame;
-    frame.context.view.size = vec2(view.size);
+    frame.size = view.renderSize;
+    frame.context.view.size = vec2(view.renderSize);
     HostSurfaces surfaces = hostSurfaces(gbuffer, [&](const RefletImage& i) { return standIns.makeIfGiven(i); });
-    surfaces.depth = standIns.make(view.size);
-    surfaces.normal = standIns.make(view.size);
+    surfaces.depth = standIns.make(view.renderSize);
+    surfaces.normal = standIns.make(view.renderSize);
     recordImport(view, frame, surfaces, {});
     if (asked(REFLET_EFFECT_SUN_SHADOW)) {
         SunInputs sun;
@@ -54,7 +55,7 @@ void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrep
     }
     EnvironmentInputs environment;
     environment.image = info.hasEnvironmentImage != 0 ? standIns.make(uvec2(256)) : gpu::Image{};
-    const gpu::Image color = standIns.make(view.size);
+    const gpu::Image color = standIns.make(view.renderSize);
     // With a composite, what comes after it needs no picture of the host's.
     const bool composes = asked(REFLET_EFFECT_COMPOSITE);
     const auto pictureOr = [&](uvec2 size) { return composes ? gpu::Image{} : standIns.make(size); };
@@ -84,12 +85,16 @@ void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrep
     if (asked(REFLET_EFFECT_TONE_MAP)) {
         recordToneMap(view, frame, settings, pictureOr(outputSizeOf(view)), info.autoExposure != 0);
     }
+    if (info.changesSize != 0) {
+        recordRescaling(view);
+    }
 }
 
 void prepareOnce(RefletView_T& view, const Settings& settings, const RefletPrepareInfo& info,
                  const RefletGBuffer& gbuffer, std::vector<gpu::PipelineInfo>& missing) {
     view.hostImages.clear();
     view.last.reset();  // its images belong to the frame that is prepared now
+    view.recorder.setSizes(sizesOf(view, view.renderSize));
     view.recorder.prepare(missing);
     try {
         prepareFrame(view, settingsOfFrame(view, settings, {}), info, gbuffer);
@@ -136,13 +141,14 @@ using namespace reflet::api;
 RefletResult refletPrepare(RefletView view, RefletSettings settings, const RefletPrepareInfo* info,
                            uint32_t maxPipelines, uint32_t* remaining) {
     return onView(view, [&] {
-        const RefletPrepareInfo given = adopted(info, "RefletPrepareInfo");
+        const RefletPrepareInfo given = adopted(info, "RefletPrepareInfo", offsetof(RefletPrepareInfo, changesSize));
         if (settings == nullptr || remaining == nullptr) {
             failArgument("{}: is NULL", settings == nullptr ? "settings" : "remaining");
         }
         const RefletGBuffer gbuffer = adopted(given.gbuffer, "RefletPrepareInfo.gbuffer");
         checkBoolean(given.hasEnvironmentImage, "RefletPrepareInfo.hasEnvironmentImage");
         checkBoolean(given.autoExposure, "RefletPrepareInfo.autoExposure");
+        checkBoolean(given.changesSize, "RefletPrepareInfo.changesSize");
         checkDepthKind(given.shadowDepthKind, "RefletPrepareInfo.shadowDepthKind");
         if (given.effects == 0 || (given.effects & ~allEffects) != 0) {
             failArgument("RefletPrepareInfo.effects: is {:#x}; must be a combination of RefletEffect", given.effects);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "effects/import/import.h"
+#include "effects/rescale/rescale.h"
 #include "lighting/surfaces.h"
 
 namespace reflet::lighting {
@@ -15,5 +16,9 @@ gpu::Image importLight(gpu::PassList& f, gpu::Image light, bool keepAlpha = fals
 
 /// R32F: the cascades' maps as tiles, depth reversed. map: a 2D array view if there are several.
 gpu::Image importShadowMap(gpu::PassList& f, gpu::Image map, uint32_t cascades, bool reversed);
+
+/// What keeps histories when the size of the frames changes: for gpu::FrameSizes.
+using reflet::rescaledFormats;
+using reflet::rescaleHistory;
 
 }  // namespace reflet::lighting
