@@ -126,7 +126,8 @@ gpu::FrameSizes sizesOf(const RefletView_T& view, uvec2 before) {
 void recordRescaling(RefletView_T& view) {
     gpu::Recorder& f = view.recorder;
     for (const VkFormat format : lighting::rescaledFormats()) {
-        for (const gpu::Resample resample : {gpu::Resample::linear, gpu::Resample::nearest}) {
+        for (const gpu::Resample resample :
+             {gpu::Resample::linear, gpu::Resample::nearest, gpu::Resample::depthInGreen}) {
             const gpu::Image to = f.image("rescaled", format, uvec2(1));
             lighting::rescaleHistory(f, f.placeholder(format), to, resample);
             f.keep(to);

@@ -27,9 +27,11 @@ struct History {
 
 /// How the content of a history follows the size of the frames.
 enum class Resample : uint8_t {
-    never,    ///< another size: it starts again
-    linear,   ///< what may be averaged: radiance, moments
-    nearest,  ///< packed values, and what belongs to one surface
+    never,         ///< another size: it starts again
+    linear,        ///< what may be averaged: radiance, moments
+    nearest,       ///< packed values, and what belongs to one surface
+    depthInRed,    ///< of packed values the nearest; but red is depth as bits of a float, which follows the surface
+    depthInGreen,  ///< the same with green
 };
 
 /// Of frames that change their size and keep their histories: FrameSizes of the frame at hand.

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <memory>
 #include <tuple>
@@ -173,38 +174,16 @@ TEST_F(DynamicResolution, PicturesAreAsGoodAsThoseOfOneSize) {
         return texels;
     };
     const auto constant = [](uint32_t /*i*/) { return cycle[3]; };
-    const auto changing = [](uint32_t i) { return cycle[i % cycle.size()]; };
-    if (getenv("EXP") != nullptr) {
-        const auto all = [&](const auto& sizeOf, uint32_t count, bool rests) {
-            RefletView view = makeView(context_, 3);
-            RoomResults results;
-            for (uint32_t i = 0; i < count; ++i) {
-                results = render(view, sizeOf(i), i, rests ? i : 0);
-            }
-            std::array p{picture(results.sum.indirectDiffuse), picture(results.sum.indirectSpecular), picture(results.sum.lit)};
-            destroy(view);
-            return p;
-        };
-        const auto w = all(constant, 256, true);
-        const auto c = all(constant, 48, false);
-        const auto m = all(changing, 48, false);
-        for (int k = 0; k < 3; ++k) printf("EXP %d constant %g changing %g\n", k, error(c[k], w[k]), error(m[k], w[k]));
-        const auto sub = last([](uint32_t i) { return cycle[3 - 2 * (i % 2)]; }, 48, false);
-        for (int y = 0; y < 40; y += 3) {
-            for (int x = 0; x < 64; x += 1) {
-                static const auto ww = last([](uint32_t) { return largest; }, 256, true);
-                const float d = (sub[y * 64 + x].y - ww[y * 64 + x].y) / (ww[y * 64 + x].y + 0.05F);
-                printf("%c", std::abs(d) < 0.02 ? '.' : d > 0 ? std::min('0' + int(d * 20), int('9')) : std::min('a' + int(-d * 20), int('z')));
-            }
-            printf("\n");
-        }
-    }
-    const std::vector<vec4> wanted = last([](uint32_t /*i*/) { return largest; }, 256, true);
+    // As a host changes it: by a few percent. And by up to a half, every frame.
+    const auto mild = [](uint32_t i) { return std::array{uvec2(48, 30), uvec2(50, 31), uvec2(46, 29)}[i / 4 % 3]; };
+    const auto wild = [](uint32_t i) { return cycle[i % cycle.size()]; };
+    const std::vector<vec4> wanted = last([](uint32_t /*i*/) { return largest; }, 128, true);
     const double one = error(last(constant, frames, false), wanted);
-    const double many = error(last(changing, frames, false), wanted);
-    RecordProperty("constant", std::to_string(one));
-    RecordProperty("changing", std::to_string(many));
-    EXPECT_LT(many, 1.1 * one) << "of one size: " << one;
+    const double few = error(last(mild, frames, false), wanted);
+    const double many = error(last(wild, frames, false), wanted);
+    std::printf("relative MSE: %g of one size, %g of mild changes, %g of wild ones\n", one, few, many);
+    EXPECT_LT(few, 1.1 * one);
+    EXPECT_LT(many, 1.1 * one);
 }
 
 // What the size of the frames changes must not show: neither what was before, nor a start from nothing.

@@ -93,7 +93,7 @@ DenoiseHistory denoiseHistory(gpu::PassList& f, DenoiseStore* own, uint32_t lobe
     }
     const bool turns = lobe == lobeDiffuse && settings.directional != 0;
     DenoiseHistory past{own->light.swap(f, lightFormat, size, gpu::Resample::linear),
-                        own->surface.swap(f, surfaceFormat, size, gpu::Resample::nearest),
+                        own->surface.swap(f, surfaceFormat, size, gpu::Resample::depthInRed),
                         own->moments.swap(f, momentsFormat, size, gpu::Resample::linear),
                         own->directional.swap(f, lightFormat, turns ? size : uvec2(1),
                                               turns ? gpu::Resample::linear : gpu::Resample::never)};

@@ -29,7 +29,11 @@ void rescaleHistory(gpu::PassList& f, const gpu::Image& from, const gpu::Image& 
     if (from.format == VK_FORMAT_R16G16B16A16_SFLOAT) {
         pass.constant("nearest", resample == gpu::Resample::nearest ? 1U : 0U);
     }
-    pass.read("from", from).write("to", to).params(RescaleParams{from.size, to.size}).dispatch(to.size);
+    if (from.format == VK_FORMAT_R32G32_UINT) {
+        pass.constant("depthInGreen", resample == gpu::Resample::depthInGreen ? 1U : 0U);
+    }
+    const vec2 ratio = vec2(f.sizes().before) / vec2(f.sizes().now);
+    pass.read("from", from).write("to", to).params(RescaleParams{from.size, to.size, ratio}).dispatch(to.size);
 }
 
 std::span<const VkFormat> rescaledFormats() {

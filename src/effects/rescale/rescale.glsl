@@ -5,7 +5,7 @@
 bool isInside(ivec2 pixel) { return all(lessThan(pixel, ivec2(params.to))); }
 
 // In texels of `from`; texel centres are at halves.
-vec2 sourceOf(ivec2 pixel) { return (vec2(pixel) + 0.5) * vec2(params.from) / vec2(params.to); }
+vec2 sourceOf(ivec2 pixel) { return (vec2(pixel) + 0.5) * params.ratio; }
 
 ivec2 clampedTexel(ivec2 at) { return clamp(at, ivec2(0), ivec2(params.from) - 1); }
 

@@ -10,6 +10,7 @@ SHARED_BEGIN
 struct RescaleParams {
     uvec2 from;  // size in pixels
     uvec2 to;
+    vec2 ratio;  // texels of `from` per texel of `to`. Not that of the sizes: a coarse grid may reach beyond the frame
 };
 
 SHARED_END
@@ -22,8 +23,8 @@ SHARED_END
 
 namespace reflet {
 
-/// Writes all of `to`, which shows the same in another size. RGBA16F, RG16F, R32F, RG32F and RG32_UINT; of the latter
-/// three the nearest texel, whatever `resample` is.
+/// Writes all of `to`, which shows the same in another size. RGBA16F; RG16F: linear; R32F, RG32F: nearest; RG32_UINT:
+/// with depth in one channel.
 void rescaleHistory(gpu::PassList& f, const gpu::Image& from, const gpu::Image& to, gpu::Resample resample);
 
 /// The formats that rescaleHistory takes.
