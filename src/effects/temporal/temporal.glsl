@@ -39,7 +39,7 @@ void resolve(ivec2 pixel, Row above, Row row, Row below) {
     now.variance = max((above.squares + row.squares + below.squares) / 9.0 - now.middle * now.middle, 0.0);
     now.moved = surface.moved * vec2(params.size);
     now.follows = surface.follows;
-    Changed change = changedAt(pixel, steadyLuma(above, row, below), sqrt(now.variance.x), surface);
+    Changed change = changedAt(pixel, steadyLuma(above, row, below), surface);
     now.stale = change.stale;
     now.relit = change.relit;
 #if HAS_COVERAGE

@@ -25,7 +25,7 @@ void resolve(ivec2 pixel, Row above, Row row, Row below) {
     Seen now = seenAt(pixel, above, row, below);
     vec3 middle = (above.sum + row.sum + below.sum) / 9.0;
     vec3 variance = max((above.squares + row.squares + below.squares) / 9.0 - middle * middle, 0.0);
-    Changed change = changedAt(pixel, steadyLuma(above, row, below), sqrt(variance.x), now);
+    Changed change = changedAt(pixel, steadyLuma(above, row, below), now);
     imageStore(changed, pixel, roundToHalf(vec4(change.stale, now.follows ? change.relit : -1.0, 0.0, 0.0)));
     imageStore(around, pixel, roundToHalf(vec4(middle, now.moved.x)));
     imageStore(spread, pixel, roundToHalf(vec4(sqrt(variance), now.moved.y)));

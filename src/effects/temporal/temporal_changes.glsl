@@ -19,8 +19,8 @@ struct Changed {
 
 // Jitter changes the mean, too: only the differences of several frames together tell that light changed. Then earlier
 // frames count as lit alike, so that the detail they have is kept.
-// deviation: standard deviation of the neighbourhood. In a frame of another size its mean may differ by so much.
-Changed changedAt(ivec2 pixel, float luma, float deviation, Seen now) {
+// Neighbourhoods of frames of another size are others: what is known of them starts anew.
+Changed changedAt(ivec2 pixel, float luma, Seen now) {
     if (now.sky) {
         imageStore(changes, pixel, vec4(0.0));
         return Changed(-1.0, 1.0);
@@ -30,11 +30,10 @@ Changed changedAt(ivec2 pixel, float luma, float deviation, Seen now) {
     bool rests = length(now.moved * vec2(params.size)) < asGoodAsStill;
     bool known = now.follows && rests;
     if (known) {
-        past = imageLoad(previousChanges, pixel);
+        past = imageLoad(previousChanges, pixel) * float(1u - params.resized);
     }
     float frames = min(past.a + 1.0, lastingFrames);
     float off = past.a > 0.0 ? luma - past.x : 0.0;
-    off = sign(off) * max(abs(off) - float(params.resized) * deviation, 0.0);
     float variance = mix(past.y, off * off, 1.0 / frames);
     float recent = mix(past.z, off, recentShare);
     float stale = float(params.mayChange) * staleness(staleShare(recent, variance, luma), staleLimits);
