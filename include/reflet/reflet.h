@@ -55,7 +55,7 @@ extern "C" {
 
 /** One VkDevice: functions, pipelines, samplers, memory. Shared by all views on that device. */
 typedef struct RefletContext_T* RefletContext;
-/** One camera: the images and histories of its effects, at its size. */
+/** One camera: the images and histories of its effects, for frames of at most its size. */
 typedef struct RefletView_T* RefletView;
 /** Values of all settings. Belongs to no context: plain data behind a handle. */
 typedef struct RefletSettings_T* RefletSettings;
@@ -206,8 +206,9 @@ typedef enum RefletViewFlags {
 /** A view at its creation. */
 typedef struct RefletViewInfo {
     size_t structSize; /**< required */
-    uint32_t width;    /**< required: pixels, 1 to 16384 */
-    uint32_t height;   /**< required */
+    /** Required: pixels, 1 to 16384: the size of its frames, or of the largest (RefletFrameInfo::renderSize). */
+    uint32_t width;
+    uint32_t height; /**< required */
     /**
      * Required: 1 to 4. When refletBeginFrame is called, the device must have finished the frame of this view that was
      * begun this many frames before.
@@ -224,13 +225,16 @@ typedef struct RefletViewInfo {
 REFLET_API RefletResult refletCreateView(RefletContext context, const RefletViewInfo* info, RefletView* view);
 /** The device must have finished all frames of the view. NULL, or a view that was destroyed: does nothing. */
 REFLET_API void refletDestroyView(RefletView view);
-/** From the next frame on. Images are made anew when that frame needs them; histories start again. */
+/**
+ * From the next frame on. Images are made anew when that frame needs them; histories start again. For sizes that follow
+ * the load (dynamic resolution): RefletFrameInfo::renderSize, which keeps histories and memory.
+ */
 REFLET_API RefletResult refletResizeView(RefletView view, uint32_t width, uint32_t height);
 /**
- * Temporal upscaling: from the next frame on, refletTemporal makes pictures of this size, at least the view's to each
- * side, from frames of the view's size. The host draws with mip bias log2(view's height / output's height) and the
- * jitter of refletJitter, in pixels of the view; what follows refletTemporal has the output's size. A half to each side
- * is the useful limit. 0, 0: the view's size.
+ * Temporal upscaling: from the next frame on, refletTemporal makes pictures of this size, at least the frame's to each
+ * side, from frames of the view's size or of RefletFrameInfo::renderSize. The host draws with mip bias log2(view's
+ * height / output's height) and the jitter of refletJitter, in pixels of the frame; what follows refletTemporal has the
+ * output's size. A half to each side is the useful limit. 0, 0: the view's size.
  */
 REFLET_API RefletResult refletSetOutputSize(RefletView view, uint32_t width, uint32_t height);
 /** Forgets all histories: after a cut of the camera, or when something other than motion changed the picture. */
@@ -300,7 +304,10 @@ typedef enum RefletMotionKind {
     REFLET_MOTION_KIND_MAX_ENUM = 0x7FFFFFFF /**< no value: lets any int be refused */
 } RefletMotionKind;
 
-/** All images have the view's size. */
+/**
+ * All images have the view's size; with RefletFrameInfo::renderSize they may have any that is at least that, and their
+ * top left rectangle of that size is read.
+ */
 typedef struct RefletGBuffer {
     size_t structSize;           /**< required */
     RefletImage depth;           /**< required: D16, D24S8, D32, D32S8, or R32F in red */
@@ -397,6 +404,14 @@ typedef struct RefletFrameInfo {
      */
     uint32_t backgroundIsEnvironment;
     const RefletGBuffer* gbuffer; /**< required; read in refletBeginFrame */
+    /**
+     * Dynamic resolution: width and height of this frame in pixels, 1 to the view's. The host has drawn the top left
+     * rectangle of that size of its images, all of the camera's picture in it; images may be larger. Results have that
+     * size, but those after refletTemporal, which have the output's. May be another one in every frame: histories go
+     * on, resampled, and no device memory is needed beyond that of the largest frame. Jitter counts in pixels of its
+     * own frame. 0, 0: the view's size, and images of just that.
+     */
+    uint32_t renderSize[2];
 } RefletFrameInfo;
 
 /**
@@ -498,7 +513,7 @@ typedef struct RefletEnvironment {
 typedef struct RefletIndirectLight {
     size_t structSize; /**< required */
     /**
-     * Required: linear radiance of the surfaces that is known so far: direct light, emission, sky. Of the view's size.
+     * Required: linear radiance of the surfaces that is known so far: direct light, emission, sky. Of the frame's size.
      * With `trace_screen.light=previous`, rays read the light that refletComposite made in the last frame, which brings
      * further bounces; if it did not run, this image.
      */
@@ -521,7 +536,7 @@ typedef struct RefletLobe {
 
 /**
  * Ambient occlusion (AO) by `ao.method`: horizon (GTAO; Jimenez et al., 2016) or bitmask (visibility bitmask; Therrien,
- * Levesque and Gilet, 2023), within `ao.radius`. RGBA16F of the view's size; alpha: the cosine-weighted share of
+ * Levesque and Gilet, 2023), within `ao.radius`. RGBA16F of the frame's size; alpha: the cosine-weighted share of
  * directions in which nothing is near, 0 to 1; RGB: the bent normal, their mean direction, world space, unit length.
  * (0, 0, 0, 1) in the background. Denoised if the settings say so.
  *
@@ -551,7 +566,7 @@ typedef enum RefletLobeKind {
 } RefletLobeKind;
 
 /**
- * Denoises a lobe that the host traced itself, by ray tracing for instance: of the view's size, RGB radiance without
+ * Denoises a lobe that the host traced itself, by ray tracing for instance: of the frame's size, RGB radiance without
  * the surface's reflectance, as in RefletLobe, alpha: hit distance in metres. Stands in for refletDiffuseGi or
  * refletReflections in this frame: refletComposite takes its result.
  */
@@ -574,8 +589,8 @@ REFLET_API RefletResult refletComposite(RefletView view, RefletSettings settings
                                         RefletComposite* composite);
 
 /**
- * Temporal antialiasing, RGBA16F of the output's size (refletSetOutputSize): radiance. color: of the view's size, drawn
- * with the frame's jitter; NULL: what refletComposite made.
+ * Temporal antialiasing, RGBA16F of the output's size (refletSetOutputSize): radiance. color: of the frame's size,
+ * drawn with the frame's jitter; NULL: what refletComposite made.
  */
 REFLET_API RefletResult refletTemporal(RefletView view, RefletSettings settings, const RefletImage* color,
                                        RefletImage* antialiased);
@@ -736,11 +751,13 @@ typedef struct RefletPrepareInfo {
     RefletDepthKind shadowDepthKind; /**< of RefletSunShadow::map */
     uint32_t shadowMapSide;          /**< texels; 0: 2048 */
     uint32_t autoExposure;           /**< of refletToneMap */
+    uint32_t changesSize;            /**< 1: RefletFrameInfo::renderSize will change from frame to frame */
 } RefletPrepareInfo;
 
 /**
  * Makes up to `maxPipelines` of the pipelines that frames with these effects and settings need, and their images;
- * *remaining: how many pipelines are still to be made. Call it until that is 0, to show progress while loading, and
+ * *remaining: how many pipelines are still to be made. Before a view's first frame, images and memory are those of its
+ * size, the largest; later, those of the last frame's. Call it until that is 0, to show progress while loading, and
  * after settings have changed. Without it, the first frame makes them. Not between refletBeginFrame and refletEndFrame.
  */
 REFLET_API RefletResult refletPrepare(RefletView view, RefletSettings settings, const RefletPrepareInfo* info,

@@ -124,19 +124,18 @@ bool holdsJitter(const mat4& toClip, vec2 jitter, uvec2 size) {
 
 }  // namespace
 
-ViewParams viewParams(const RefletFrameInfo& info, RefletDepthKind depthKind, uvec2 size) {
+ViewParams viewParams(const RefletFrameInfo& info, RefletDepthKind depthKind, uvec2 size, uvec2 before) {
     const mat4 toView = rigid(info.worldToView, "worldToView");
     const mat4 toClip = reflectedProjection(matrixOf(info.viewToClip, "viewToClip"), info, depthKind);
     ViewParams v = lighting::viewOf(toView, toClip, size);
     checkProjection(toClip, v.clipToWorld, depthKind);
     const bool first = isZero(info.previousWorldToView) && isZero(info.previousViewToClip);
     if (!first) {
-        const mat4 before =
-            reflectedProjection(matrixOf(info.previousViewToClip, "previousViewToClip"), info, depthKind);
-        if (before[0][0] == 0.0F || before[1][1] == 0.0F) {
+        const mat4 was = reflectedProjection(matrixOf(info.previousViewToClip, "previousViewToClip"), info, depthKind);
+        if (was[0][0] == 0.0F || was[1][1] == 0.0F) {
             failArgument("RefletFrameInfo.previousViewToClip: is no projection; both former matrices, or none");
         }
-        v.previousWorldToClip = before * rigid(info.previousWorldToView, "previousWorldToView");
+        v.previousWorldToClip = was * rigid(info.previousWorldToView, "previousWorldToView");
     }
     v.frame = info.frameIndex;
     v.rest = info.restFrames;
@@ -144,7 +143,8 @@ ViewParams viewParams(const RefletFrameInfo& info, RefletDepthKind depthKind, uv
     if (holdsJitter(toClip, jitter, size)) {
         failArgument("RefletFrameInfo.viewToClip: has the jitter in it; give the projection without jitter");
     }
-    applyJitter(v, jitter, jitterOf(info.previousJitter, "previousJitter"));
+    const vec2 jitterBefore = jitterOf(info.previousJitter, "previousJitter");
+    applyJitter(v, jitter, size == before ? jitterBefore : jitterBefore * vec2(size) / vec2(before));
     return v;
 }
 

@@ -9,8 +9,8 @@
 
 namespace reflet::api {
 
-/// Throws Failure for matrices that are no camera.
-ViewParams viewParams(const RefletFrameInfo& info, RefletDepthKind depthKind, uvec2 size);
+/// Throws Failure for matrices that are no camera. size, before: of this and the last frame.
+ViewParams viewParams(const RefletFrameInfo& info, RefletDepthKind depthKind, uvec2 size, uvec2 before);
 
 /// view: of viewParams.
 ImportParams importParams(const RefletFrameInfo& info, const RefletGBuffer& g, const ViewParams& view);

@@ -154,9 +154,11 @@ std::string describe(const RefletView_T& view) {
     const ViewParams& v = frame.context.view;
     const bool perspective = v.eye.w != 0.0F;
     Lines lines;
-    lines.push_back(fmt::format("view: {}x{}, output {}x{}, frame {} of {} recorded, at rest for {}; Reflet {}.{}.{}",
-                                view.size.x, view.size.y, d.outputSize.x, d.outputSize.y, info.frameIndex, d.frames + 1,
-                                info.restFrames, REFLET_VERSION_MAJOR, REFLET_VERSION_MINOR, REFLET_VERSION_PATCH));
+    lines.push_back(fmt::format("view: {}x{}{}, output {}x{}, frame {} of {} recorded, at rest for {}; Reflet {}.{}.{}",
+                                view.size.x, view.size.y,
+                                frame.inLarger ? fmt::format(", this frame {}x{}", frame.size.x, frame.size.y) : "",
+                                d.outputSize.x, d.outputSize.y, info.frameIndex, d.frames + 1, info.restFrames,
+                                REFLET_VERSION_MAJOR, REFLET_VERSION_MINOR, REFLET_VERSION_PATCH));
     lines.push_back(cameraText(v, info, perspective));
     lines.push_back(fmt::format("clip space: y {}, depth {} to 1; {}", info.clipYUp != 0 ? "up" : "down",
                                 info.clipDepthFromMinusOne != 0 ? "-1" : "0", upText(v)));

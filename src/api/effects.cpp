@@ -90,15 +90,15 @@ SunInputs sunInputs(const RefletSunShadow& sun, const Settings& settings) {
 
 // The image of an argument that may be NULL, which stands for `otherwise`.
 gpu::Image hostImageOf(const RefletImage* given, const char* name, const char* otherwise, HostImages& host,
-                       uvec2 size) {
+                       const Rectangle& read) {
     if (given == nullptr) {
         return {};
     }
     if (given->image == VK_NULL_HANDLE) {
         failArgument("{}.image: is VK_NULL_HANDLE; pass NULL for {}", name, otherwise);
     }
-    checkImage(*given, name, size, 3);
-    const gpu::Image image = host.add(*given);
+    checkImage(*given, name, read, 3);
+    const gpu::Image image = host.add(*given, read.size);
     host.acquire();
     return image;
 }
@@ -119,8 +119,8 @@ Lens lensOf(const RefletLens& lens) {
     return {lens.apertureRadius, lens.focusDistance, lens.blades, lens.bladeRotation};
 }
 
-gpu::Image colorOf(const RefletImage* color, HostImages& host, uvec2 size) {
-    return hostImageOf(color, "color", "the result of the effect before", host, size);
+gpu::Image colorOf(const RefletImage* color, HostImages& host, const Rectangle& read) {
+    return hostImageOf(color, "color", "the result of the effect before", host, read);
 }
 
 }  // namespace
@@ -138,10 +138,10 @@ RefletResult refletSunShadow(RefletView view, RefletSettings settings, const Ref
         if (given.map.image == VK_NULL_HANDLE) {
             failArgument("RefletSunShadow.map.image: is VK_NULL_HANDLE, and is required");
         }
-        checkImage(given.map, "RefletSunShadow.map", uvec2(0), depthChannel);
+        checkImage(given.map, "RefletSunShadow.map", {}, depthChannel);
         SunInputs in = sunInputs(given, values);
         HostImages host(*view);
-        in.map = host.add(given.map, given.cascades);
+        in.map = host.add(given.map, uvec2(0), given.cascades);
         host.acquire();
         *visibility = resultOf(recordSunShadow(*view, frame, values, in));
     });
@@ -178,7 +178,8 @@ RefletResult refletComposite(RefletView view, RefletSettings settings, const Ref
         checkNonePending(frame);
         const RefletComposite given = adopted(composite, "RefletComposite");
         HostImages host(*view);
-        const gpu::Image image = hostImageOf(light, "light", "the light that the lobes were given", host, view->size);
+        const gpu::Image image =
+            hostImageOf(light, "light", "the light that the lobes were given", host, {frame.size, frame.inLarger});
         const lighting::Light sum = recordComposite(*view, frame, values, image);
         RefletComposite result{};
         result.structSize = given.structSize;
@@ -194,7 +195,8 @@ RefletResult refletTemporal(RefletView view, RefletSettings settings, const Refl
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
         checkOut(antialiased, "antialiased");
         HostImages host(*view);
-        *antialiased = resultOf(recordTemporal(*view, frame, values, colorOf(color, host, view->size)));
+        *antialiased =
+            resultOf(recordTemporal(*view, frame, values, colorOf(color, host, {frame.size, frame.inLarger})));
     });
 }
 
@@ -204,7 +206,8 @@ RefletResult refletDepthOfField(RefletView view, RefletSettings settings, const 
         checkOut(blurred, "blurred");
         const Lens thin = lensOf(adopted(lens, "RefletLens"));
         HostImages host(*view);
-        *blurred = resultOf(recordDepthOfField(*view, frame, values, thin, colorOf(color, host, outputSizeOf(*view))));
+        *blurred = resultOf(recordDepthOfField(*view, frame, values, thin,
+                                               colorOf(color, host, {outputSizeOf(*view), frame.inLarger})));
     });
 }
 
@@ -214,7 +217,7 @@ RefletResult refletToneMap(RefletView view, RefletSettings settings, const Refle
         checkOut(display, "display");
         checkBoolean(autoExposure, "autoExposure");
         HostImages host(*view);
-        *display =
-            resultOf(recordToneMap(*view, frame, values, colorOf(color, host, outputSizeOf(*view)), autoExposure != 0));
+        *display = resultOf(recordToneMap(
+            *view, frame, values, colorOf(color, host, {outputSizeOf(*view), frame.inLarger}), autoExposure != 0));
     });
 }

@@ -31,7 +31,7 @@ const lighting::ViewContext& contextOf(RefletView_T& view, Frame& frame) {
 // This frame's and the last frame's picture. The first effect of a frame that reads or writes it swaps them.
 gpu::History litOf(RefletView_T& view, Frame& frame) {
     if (!frame.lit.next) {
-        frame.lit = view.store->lit.swap(view.recorder, lightFormat, view.size);
+        frame.lit = view.store->lit.swap(view.recorder, lightFormat, frame.size, gpu::Resample::linear);
         frame.lit.valid = frame.lit.valid && view.composedLast;
     }
     frame.lit.valid = frame.lit.valid && !frame.composed;  // which overwrites the last picture
@@ -63,7 +63,7 @@ EnvironmentLight environmentLight(RefletView_T& view, const EnvironmentInputs& i
 // How bright light of the host may be in this frame.
 LightBound& boundOf(RefletView_T& view, Frame& frame) {
     if (!frame.bound) {
-        frame.bound = lighting::boundLight(view.recorder, view.store->lightPeaks, view.size,
+        frame.bound = lighting::boundLight(view.recorder, view.store->lightPeaks, frame.size,
                                            frame.context.view.rest > 0, frame.change.light > 0.0F);
     }
     return *frame.bound;
@@ -197,6 +197,23 @@ void finishCall(RefletView_T& view, const Frame& frame) {
 
 }  // namespace
 
+gpu::FrameSizes sizesOf(const RefletView_T& view, uvec2 before) {
+    return {before, view.renderSize, view.size, lighting::rescaleHistory};
+}
+
+void recordRescaling(RefletView_T& view) {
+    gpu::Recorder& f = view.recorder;
+    for (const VkFormat format : lighting::rescaledFormats()) {
+        for (const gpu::Resample resample :
+             {gpu::Resample::linear, gpu::Resample::nearest, gpu::Resample::depthInGreen}) {
+            const gpu::Image to = f.image("rescaled", format, uvec2(1));
+            lighting::rescaleHistory(f, f.placeholder(format), to, resample);
+            f.keep(to);
+        }
+    }
+    f.flush();
+}
+
 void recordImport(RefletView_T& view, Frame& frame, const HostSurfaces& host, const ImportParams& params) {
     static_cast<lighting::Surfaces&>(frame) = lighting::importSurfaces(view.recorder, host, params);
     finishCall(view, frame);
@@ -315,9 +332,9 @@ gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& sett
         failArgument("color: is NULL, and refletComposite has not run in this frame");
     }
     const uvec2 size = outputSizeOf(view);
-    if (glm::any(glm::lessThan(size, view.size))) {
-        failArgument("view: its output size, {}x{}, is smaller than its size, {}x{} (refletSetOutputSize)", size.x,
-                     size.y, view.size.x, view.size.y);
+    if (glm::any(glm::lessThan(size, frame.size))) {
+        failArgument("view: its output size, {}x{}, is smaller than the frame's, {}x{} (refletSetOutputSize)", size.x,
+                     size.y, frame.size.x, frame.size.y);
     }
     const EnvironmentLight& sky = frame.context.environment;
     const bool filtersSky = frame.showsEnvironment && sky.texels && sky.texels.size.x > 1;

@@ -24,8 +24,14 @@ Settings settingsOfFrame(const RefletView_T& view, const Settings& settings, con
 /// In place of a number of channels: depth.
 constexpr uint32_t depthChannel = 0;
 
-/// Throws Failure if an image cannot be sampled, has not this size (0: any) or lacks channels. name: of the field.
-void checkImage(const RefletImage& image, const char* name, uvec2 size, uint32_t channels);
+/// What is read of an image of the host: its top left rectangle of this size.
+struct Rectangle {
+    uvec2 size{0};          ///< 0: all of the image
+    bool inLarger = false;  ///< the image may be larger
+};
+
+/// Throws Failure if an image cannot be sampled, has another size or lacks channels. name: of the field.
+void checkImage(const RefletImage& image, const char* name, const Rectangle& read, uint32_t channels);
 
 /// Makes the host's images readable by compute passes while it lives, and leaves them as they were.
 class HostImages {
@@ -35,8 +41,8 @@ public:
     HostImages(const HostImages&) = delete;
     HostImages& operator=(const HostImages&) = delete;
 
-    /// None for an absent one. layers: that its view has.
-    gpu::Image add(const RefletImage& image, uint32_t layers = 1);
+    /// None for an absent one. size: of what is read of it; 0: all. layers: that its view has.
+    gpu::Image add(const RefletImage& image, uvec2 size, uint32_t layers = 1);
     /// Records the barriers of all images added so far.
     void acquire();
 
@@ -74,6 +80,11 @@ struct EnvironmentInputs {
     EnvironmentParams params{};
 };
 
+/// For the recorder. before: the size of the last frame.
+gpu::FrameSizes sizesOf(const RefletView_T& view, uvec2 before);
+
+/// All passes that a change of the frames' size may need, with nothing to do.
+void recordRescaling(RefletView_T& view);
 void recordImport(RefletView_T& view, Frame& frame, const HostSurfaces& host, const ImportParams& params);
 gpu::Image recordSunShadow(RefletView_T& view, Frame& frame, const Settings& settings, const SunInputs& in);
 /// light: see ContactParams.

@@ -97,6 +97,8 @@ struct Frame : lighting::Surfaces {
     std::optional<lighting::PendingLobe> pending;  ///< whose rays wait for the host's answers
     float elapsed = 0.0F;
     reflet::lighting::Change change;
+    uvec2 size{0};                  ///< RefletFrameInfo::renderSize, or the view's
+    bool inLarger = false;          ///< its images may be larger
     bool showsEnvironment = false;  ///< RefletFrameInfo::backgroundIsEnvironment
     vec2 jitter{0.0F};
 };
@@ -124,9 +126,11 @@ struct RefletView_T {
     std::mutex mutex;
     std::shared_ptr<VkDeviceSize> memory;  ///< bytes in use
     reflet::gpu::Recorder recorder;
-    bool timesPasses;   ///< REFLET_VIEW_PASS_TIMES
-    uint32_t seed = 0;  ///< RefletViewInfo::viewIndex
-    reflet::uvec2 size{0};
+    bool timesPasses;                           ///< REFLET_VIEW_PASS_TIMES
+    uint32_t seed = 0;                          ///< RefletViewInfo::viewIndex
+    reflet::uvec2 size{0};                      ///< the largest of its frames
+    reflet::uvec2 renderSize{0};                ///< of the current or last frame
+    uint32_t steadyFrames = UINT32_MAX;         ///< before that one, since the size changed; UINT32_MAX: it never did
     reflet::uvec2 outputSize{0};                ///< of refletTemporal's pictures; 0: as size
     VkCommandBuffer commands = VK_NULL_HANDLE;  ///< of the current frame
     std::unique_ptr<reflet::api::ViewStore> store;

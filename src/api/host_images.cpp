@@ -160,7 +160,7 @@ VkAccessFlags2 accessIn(VkImageLayout layout) {
 
 }  // namespace
 
-void checkImage(const RefletImage& image, const char* name, uvec2 size, uint32_t channels) {
+void checkImage(const RefletImage& image, const char* name, const Rectangle& read, uint32_t channels) {
     if (image.view == VK_NULL_HANDLE) {
         failArgument("{}.view: is VK_NULL_HANDLE", name);
     }
@@ -168,9 +168,17 @@ void checkImage(const RefletImage& image, const char* name, uvec2 size, uint32_t
     if (image.width < 1 || image.height < 1) {
         failArgument("{}.width, height: are {}x{}", name, image.width, image.height);
     }
-    if (size.x > 0 && (image.width != size.x || image.height != size.y)) {
+    const uvec2 size = read.size;
+    if (read.inLarger && (image.width < size.x || image.height < size.y)) {
         failArgument(
-            "{}.width, height: are {}x{}, and the view is {}x{}; call refletResizeView, or give images of its size",
+            "{}.width, height: are {}x{}, smaller than the rectangle of {}x{} that is read "
+            "(RefletFrameInfo.renderSize)",
+            name, image.width, image.height, size.x, size.y);
+    }
+    if (!read.inLarger && size.x > 0 && (image.width != size.x || image.height != size.y)) {
+        failArgument(
+            "{}.width, height: are {}x{}, and the view is {}x{}; call refletResizeView, give images of its size, or "
+            "say in RefletFrameInfo.renderSize which rectangle is drawn",
             name, image.width, image.height, size.x, size.y);
     }
     if (!isKnown(image.layout)) {
@@ -185,7 +193,7 @@ void checkImage(const RefletImage& image, const char* name, uvec2 size, uint32_t
     }
 }
 
-gpu::Image HostImages::add(const RefletImage& image, uint32_t layers) {
+gpu::Image HostImages::add(const RefletImage& image, uvec2 size, uint32_t layers) {
     if (image.image == VK_NULL_HANDLE) {
         return {};
     }
@@ -206,7 +214,7 @@ gpu::Image HostImages::add(const RefletImage& image, uint32_t layers) {
         known->image.access |= image.access;
         known->layers = std::max(known->layers, layers);
     }
-    return {&state, -1, image.format, {image.width, image.height}, 1, 1};
+    return {&state, -1, image.format, size.x > 0 ? size : uvec2(image.width, image.height), 1, 1};
 }
 
 void HostImages::acquire() {

@@ -10,7 +10,7 @@ namespace {
 
 EnvironmentInputs environmentInputs(const RefletEnvironment& environment, HostImages& host) {
     EnvironmentInputs in;
-    in.image = host.add(environment.image);
+    in.image = host.add(environment.image, uvec2(0));
     in.from = environment.image.view;
     in.revision = environment.revision;
     vec3 factor(environment.factor[0], environment.factor[1], environment.factor[2]);
@@ -40,7 +40,7 @@ void checkEnvironment(const RefletEnvironment& environment) {
                      up.z);
     }
     if (environment.image.image != VK_NULL_HANDLE) {
-        checkImage(environment.image, "RefletEnvironment.image", uvec2(0), 3);
+        checkImage(environment.image, "RefletEnvironment.image", {}, 3);
     }
 }
 
@@ -59,17 +59,17 @@ struct LightInputs {
     EnvironmentInputs environment;
 };
 
-LightInputs lightInputs(const RefletView_T& view, const RefletIndirectLight* light, HostImages& host) {
+LightInputs lightInputs(const Frame& frame, const RefletIndirectLight* light, HostImages& host) {
     const RefletIndirectLight given = adopted(light, "RefletIndirectLight");
     if (given.light.image == VK_NULL_HANDLE) {
         failArgument("RefletIndirectLight.light.image: is VK_NULL_HANDLE, and is required");
     }
-    checkImage(given.light, "RefletIndirectLight.light", view.size, 3);
+    checkImage(given.light, "RefletIndirectLight.light", {frame.size, frame.inLarger}, 3);
     const RefletEnvironment around = given.environment != nullptr
                                          ? adopted(given.environment, "RefletIndirectLight.environment")
                                          : RefletEnvironment{};
     checkEnvironment(around);
-    const LightInputs in{host.add(given.light), environmentInputs(around, host)};
+    const LightInputs in{host.add(given.light, frame.size), environmentInputs(around, host)};
     host.acquire();
     return in;
 }
@@ -80,7 +80,7 @@ RefletResult traceLobeOf(RefletView view, RefletSettings settings, const RefletI
         checkNonePending(frame);
         const RefletLobe asked = adopted<RefletLobe>(lobe, "lobe");
         HostImages host(*view);
-        const LightInputs in = lightInputs(*view, light, host);
+        const LightInputs in = lightInputs(frame, light, host);
         const RefletLobe out =
             lobeOf(recordLobe(*view, frame, values, kind, in.light, in.environment), asked.structSize);
         std::memcpy(lobe, &out, out.structSize);
@@ -168,9 +168,9 @@ RefletResult refletDenoise(RefletView view, RefletSettings settings, RefletLobeK
         if (noisy == nullptr || noisy->image == VK_NULL_HANDLE) {
             failArgument("noisy: is NULL");
         }
-        checkImage(*noisy, "noisy", view->size, 4);
+        checkImage(*noisy, "noisy", {frame.size, frame.inLarger}, 4);
         HostImages host(*view);
-        const gpu::Image image = host.add(*noisy);
+        const gpu::Image image = host.add(*noisy, frame.size);
         host.acquire();
         RefletLobe out = lobeOf(recordDenoise(*view, frame, values, which, image), asked.structSize);
         out.confidence = {};
@@ -185,7 +185,7 @@ RefletResult refletMissedRays(RefletView view, RefletSettings settings, RefletLo
         const uint32_t lobe = lobeOfKind(kind);
         const RefletMissedRays asked = adopted<RefletMissedRays>(missed, "RefletMissedRays");
         HostImages host(*view);
-        const LightInputs in = lightInputs(*view, light, host);
+        const LightInputs in = lightInputs(frame, light, host);
         const MissedRays rays = recordMissedRays(*view, frame, values, lobe, in.light, in.environment);
         RefletMissedRays out{};
         out.structSize = asked.structSize;

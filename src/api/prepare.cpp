@@ -26,7 +26,7 @@ public:
         return {&state, -1, VK_FORMAT_R16G16B16A16_SFLOAT, size, 1, 1};
     }
     gpu::Image makeIfGiven(const RefletImage& image) {
-        return image.image != VK_NULL_HANDLE ? make(view_.size) : gpu::Image{};
+        return image.image != VK_NULL_HANDLE ? make(view_.renderSize) : gpu::Image{};
     }
 
 private:
@@ -109,7 +109,7 @@ void prepareLobes(RefletView_T& view, Frame& frame, const Settings& settings, co
                   const FrameKind& kind, StandIns& standIns) {
     EnvironmentInputs environment;
     environment.image = info.hasEnvironmentImage != 0 ? standIns.make(uvec2(256)) : gpu::Image{};
-    const gpu::Image color = standIns.make(view.size);
+    const gpu::Image color = standIns.make(view.renderSize);
     for (const uint32_t lobe : {lobeDiffuse, lobeSpecular}) {
         const LobeFrom from = lobe == lobeDiffuse ? kind.diffuse : kind.specular;
         if (from == LobeFrom::rays) {
@@ -128,13 +128,14 @@ void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrep
     StandIns standIns(view);
     const auto asked = [&](RefletEffect effect) { return (kind.effects & effect) != 0; };
     Frame frame;
-    frame.context.view.size = vec2(view.size);
+    frame.size = view.renderSize;
+    frame.context.view.size = vec2(view.renderSize);
     frame.showsEnvironment = kind.skyMoves;
     frame.context.view.eye.w = kind.skyMoves ? 1.0F : 0.0F;
     frame.context.view.worldToClip[0][0] = kind.skyMoves ? 1.0F : 0.0F;  // other than the last frame's
     HostSurfaces surfaces = hostSurfaces(*info.gbuffer, [&](const RefletImage& i) { return standIns.makeIfGiven(i); });
-    surfaces.depth = standIns.make(view.size);
-    surfaces.normal = standIns.make(view.size);
+    surfaces.depth = standIns.make(view.renderSize);
+    surfaces.normal = standIns.make(view.renderSize);
     recordImport(view, frame, surfaces, {});
     if (asked(REFLET_EFFECT_SUN_SHADOW)) {
         prepareSun(view, frame, settings, info, kind, standIns);
@@ -150,10 +151,10 @@ void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrep
     const bool composes = asked(REFLET_EFFECT_COMPOSITE);
     const auto pictureOr = [&](uvec2 size) { return composes ? gpu::Image{} : standIns.make(size); };
     if (composes) {
-        recordComposite(view, frame, settings, frame.light ? gpu::Image{} : standIns.make(view.size));
+        recordComposite(view, frame, settings, frame.light ? gpu::Image{} : standIns.make(view.renderSize));
     }
     if (asked(REFLET_EFFECT_TEMPORAL)) {
-        recordTemporal(view, frame, settings, pictureOr(view.size));
+        recordTemporal(view, frame, settings, pictureOr(view.renderSize));
     }
     if (asked(REFLET_EFFECT_DEPTH_OF_FIELD)) {
         for (const uint32_t blades : {0U, 6U}) {  // round apertures, and polygons
@@ -162,8 +163,11 @@ void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrep
         }
     }
     if (asked(REFLET_EFFECT_TONE_MAP)) {
-        const bool meters = info.autoExposure != 0 && (composes || outputSizeOf(view) == view.size);
+        const bool meters = info.autoExposure != 0 && (composes || outputSizeOf(view) == view.renderSize);
         recordToneMap(view, frame, settings, pictureOr(outputSizeOf(view)), meters);
+    }
+    if (info.changesSize != 0) {
+        recordRescaling(view);
     }
 }
 
@@ -171,6 +175,7 @@ void prepareOnce(RefletView_T& view, const Settings& settings, const RefletPrepa
                  std::vector<gpu::PipelineInfo>& missing) {
     view.hostImages.clear();
     view.last.reset();  // its images belong to the frame that is prepared now
+    view.recorder.setSizes(sizesOf(view, view.renderSize));
     view.recorder.prepare(missing);
     const bool composed = std::exchange(view.composedLast, false);
     const auto environments = std::exchange(view.store->environments, {});  // no frame has shown the stand-in
@@ -195,7 +200,7 @@ void prepareKinds(const RefletView_T& view, const Settings& settings, const Refl
     constexpr uvec2 size(64);
     RefletView_T small(view.owner, 1, false);
     small.memory = view.memory;
-    small.size = size;
+    small.size = small.renderSize = size;
     small.outputSize = outputSizeOf(view) != view.size ? 2U * size : uvec2(0);
     small.store = std::make_unique<ViewStore>();
     for (const FrameKind& kind : frameKinds(info)) {
@@ -242,7 +247,7 @@ using namespace reflet::api;
 RefletResult refletPrepare(RefletView view, RefletSettings settings, const RefletPrepareInfo* info,
                            uint32_t maxPipelines, uint32_t* remaining) {
     return onView(view, [&] {
-        RefletPrepareInfo given = adopted(info, "RefletPrepareInfo");
+        RefletPrepareInfo given = adopted(info, "RefletPrepareInfo", offsetof(RefletPrepareInfo, changesSize));
         checkHandle(settings, "settings");
         if (remaining == nullptr) {
             failArgument("remaining: is NULL");
@@ -251,6 +256,7 @@ RefletResult refletPrepare(RefletView view, RefletSettings settings, const Refle
         given.gbuffer = &gbuffer;  // of the size that this library knows
         checkBoolean(given.hasEnvironmentImage, "RefletPrepareInfo.hasEnvironmentImage");
         checkBoolean(given.autoExposure, "RefletPrepareInfo.autoExposure");
+        checkBoolean(given.changesSize, "RefletPrepareInfo.changesSize");
         checkDepthKind(given.shadowDepthKind, "RefletPrepareInfo.shadowDepthKind");
         if (given.effects == 0 || (given.effects & ~allEffects) != 0) {
             failArgument("RefletPrepareInfo.effects: is {:#x}; must be a combination of RefletEffect", given.effects);

@@ -52,7 +52,7 @@ void checkKinds(const RefletGBuffer& g) {
     checkBoolean(g.motionIncludesJitter, "gbuffer.motionIncludesJitter");
 }
 
-void checkGBuffer(const RefletGBuffer& g, uvec2 size) {
+void checkGBuffer(const RefletGBuffer& g, const Rectangle& read) {
     checkKinds(g);
     struct Field {
         const char* name;
@@ -80,9 +80,62 @@ void checkGBuffer(const RefletGBuffer& g, uvec2 size) {
             failArgument("{}.image: is VK_NULL_HANDLE, and is required", name);
         }
         if (image->image != VK_NULL_HANDLE) {
-            checkImage(*image, name, size, channels);
+            checkImage(*image, name, read, channels);
         }
     }
+}
+
+// What the host has drawn of this frame.
+Rectangle rectangleOf(const RefletView_T& view, const RefletFrameInfo& info) {
+    const uvec2 given(info.renderSize[0], info.renderSize[1]);
+    if (given == uvec2(0)) {
+        return {view.size, false};
+    }
+    if (given.x < 1 || given.y < 1 || given.x > view.size.x || given.y > view.size.y) {
+        failArgument(
+            "RefletFrameInfo.renderSize: is {}x{}; must be 1x1 to the view's size, {}x{} (refletCreateView), or 0x0",
+            given.x, given.y, view.size.x, view.size.y);
+    }
+    return {given, true};
+}
+
+// Frames of this size in a row before one of it that begins now.
+uint32_t steadyFramesBefore(const RefletView_T& view, uvec2 size) {
+    return size == view.renderSize ? std::min(view.steadyFrames, UINT32_MAX - 1) + 1 : 0;
+}
+
+// Makes it the size of the frame that begins.
+void startSize(RefletView_T& view, uvec2 size) {
+    const uvec2 before = view.renderSize;
+    view.steadyFrames = steadyFramesBefore(view, size);
+    view.renderSize = size;
+    view.recorder.setSizes(sizesOf(view, before));
+}
+
+Frame frameOf(const RefletView_T& view, const RefletFrameInfo& info, const RefletGBuffer& gbuffer,
+              const Rectangle& drawn) {
+    Frame frame;
+    frame.context.view = viewParams(info, gbuffer.depthKind, drawn.size, view.renderSize);
+    frame.context.view.seed = view.seed;
+    frame.jitter = {info.jitter[0], info.jitter[1]};
+    if (!(info.elapsed >= 0.0F && info.elapsed <= 3600.0F)) {
+        failArgument("RefletFrameInfo.elapsed: is {}; must be 0 to 3600 seconds", info.elapsed);
+    }
+    frame.elapsed = info.elapsed;
+    if (!(info.lightChange >= 0.0F && info.lightChange <= 1.0F)) {
+        failArgument("RefletFrameInfo.lightChange: is {}; must be 0 to 1", info.lightChange);
+    }
+    // Another size changes the picture, and so does another environment.
+    frame.context.view.rest =
+        std::min({info.restFrames, steadyFramesBefore(view, drawn.size), view.store->environmentRests++});
+    frame.change = {frame.context.view.rest, info.lightChange};
+    // In the first frame nobody knows whether the host will composite.
+    const bool first = view.store->lastGeneration != view.recorder.generation();
+    frame.context.composes = first || view.composedLast;
+    frame.showsEnvironment = info.backgroundIsEnvironment != 0;
+    frame.size = drawn.size;
+    frame.inLarger = drawn.inLarger;
+    return frame;
 }
 
 // For refletDescribe.
@@ -127,7 +180,7 @@ HostSurfaces hostSurfaces(const RefletGBuffer& g, const std::function<gpu::Image
 
 Settings settingsOfFrame(const RefletView_T& view, const Settings& settings, const lighting::Change& change) {
     Settings ofFrame = settings;
-    const auto height = static_cast<float>(view.size.y);
+    const auto height = static_cast<float>(view.renderSize.y);
     const auto outputHeight = static_cast<float>(outputSizeOf(view).y);
     lighting::countRenderedPixels(ofFrame, height, outputHeight);
     lighting::fitHistories(ofFrame, change, height / outputHeight);
@@ -205,7 +258,7 @@ RefletResult refletCreateView(RefletContext context, const RefletViewInfo* info,
         auto made =
             std::make_unique<RefletView_T>(*context, given.framesInFlight, (given.flags & REFLET_VIEW_PASS_TIMES) != 0);
         made->seed = given.viewIndex;
-        made->size = {given.width, given.height};
+        made->size = made->renderSize = {given.width, given.height};
         made->store = std::make_unique<ViewStore>();
         Live<RefletView_T>::add(made.get());
         ++context->views;
@@ -237,7 +290,7 @@ RefletResult refletResizeView(RefletView view, uint32_t width, uint32_t height) 
         }
         checkSize(width, height);
         if (view->size != uvec2(width, height)) {
-            view->size = {width, height};
+            view->size = view->renderSize = {width, height};
             view->last.reset();
             auto fresh = std::make_unique<ViewStore>();  // the rest is of the old size
             std::swap(fresh->blueNoise, view->store->blueNoise);
@@ -301,7 +354,7 @@ void refletJitter(uint32_t frameIndex, float jitter[2]) {
 
 RefletResult refletBeginFrame(RefletView view, const RefletFrameInfo* info) {
     return onView(view, [&] {
-        const RefletFrameInfo given = adopted(info, "RefletFrameInfo");
+        const RefletFrameInfo given = adopted(info, "RefletFrameInfo", offsetof(RefletFrameInfo, renderSize));
         if (view->frame) {
             failArgument("view: a frame has begun already; call refletEndFrame first");
         }
@@ -309,37 +362,22 @@ RefletResult refletBeginFrame(RefletView view, const RefletFrameInfo* info) {
             failArgument("RefletFrameInfo.commandBuffer: is VK_NULL_HANDLE");
         }
         const RefletGBuffer gbuffer = adopted(given.gbuffer, "RefletFrameInfo.gbuffer");
-        checkGBuffer(gbuffer, view->size);
+        const Rectangle drawn = rectangleOf(*view, given);
+        checkGBuffer(gbuffer, drawn);
         checkBoolean(given.clipYUp, "RefletFrameInfo.clipYUp");
         checkBoolean(given.clipDepthFromMinusOne, "RefletFrameInfo.clipDepthFromMinusOne");
         checkBoolean(given.backgroundIsEnvironment, "RefletFrameInfo.backgroundIsEnvironment");
-        Frame frame;
-        frame.context.view = viewParams(given, gbuffer.depthKind, view->size);
-        frame.context.view.seed = view->seed;
-        frame.jitter = {given.jitter[0], given.jitter[1]};
-        if (!(given.elapsed >= 0.0F && given.elapsed <= 3600.0F)) {
-            failArgument("RefletFrameInfo.elapsed: is {}; must be 0 to 3600 seconds", given.elapsed);
-        }
-        frame.elapsed = given.elapsed;
-        if (!(given.lightChange >= 0.0F && given.lightChange <= 1.0F)) {
-            failArgument("RefletFrameInfo.lightChange: is {}; must be 0 to 1", given.lightChange);
-        }
-        uint32_t& rest = frame.context.view.rest;
-        rest = std::min(rest, view->store->environmentRests++);
-        frame.change = {rest, given.lightChange};
-        // In the first frame nobody knows whether the host will composite.
-        const bool first = view->store->lastGeneration != view->recorder.generation();
-        frame.context.composes = first || view->composedLast;
-        frame.showsEnvironment = given.backgroundIsEnvironment != 0;
+        Frame frame = frameOf(*view, given, gbuffer, drawn);
         const ImportParams params = importParams(given, gbuffer, frame.context.view);
         view->commands = given.commandBuffer;
         view->hostImages.clear();
         view->recorder.begin(given.commandBuffer);
+        startSize(*view, drawn.size);
         try {
             waitForReaders(*view);
             HostImages host(*view);
             const HostSurfaces surfaces =
-                hostSurfaces(gbuffer, [&](const RefletImage& image) { return host.add(image); });
+                hostSurfaces(gbuffer, [&](const RefletImage& image) { return host.add(image, drawn.size); });
             host.acquire();
             recordImport(*view, frame, surfaces, params);
         } catch (...) {

@@ -25,6 +25,25 @@ struct History {
     bool valid = false;  ///< false: `previous` has no content (first frame, or a new size)
 };
 
+/// How the content of a history follows the size of the frames.
+enum class Resample : uint8_t {
+    never,         ///< another size: it starts again
+    linear,        ///< what may be averaged: radiance, moments
+    nearest,       ///< packed values, and what belongs to one surface
+    depthInRed,    ///< of packed values the nearest; but red is depth as bits of a float, which follows the surface
+    depthInGreen,  ///< the same with green
+};
+
+/// Of frames that change their size and keep their histories: FrameSizes of the frame at hand.
+struct FrameSizes {
+    uvec2 before{0};   ///< of the last frame, in pixels
+    uvec2 now{0};      ///< of this frame
+    uvec2 largest{0};  ///< of all frames to come: histories have memory for it
+    /// Lists a pass that resamples an image for another one of the same format, with the same uv. None: histories start
+    /// again with another size.
+    void (*rescale)(PassList& f, const Image& from, const Image& to, Resample resample) = nullptr;
+};
+
 /// A storage image, also sampled. With several layers, or `array`: an array view.
 ImageInfo storageInfo(VkFormat format, uvec2 size, uint32_t layers = 1, bool array = false);
 /// A render target (colour or depth), also sampled.
@@ -84,17 +103,27 @@ private:
 /// Two storage images that swap every frame. Their memory serves other images of the frame behind the last pass that
 /// reads `previous`, and before the first that writes `next`: after a list that has used `next`, later lists of the
 /// frame must not read `previous`.
+///
+/// When the size of the frames changes (PassList::setSizes), what the last frame wrote is resampled into the image that
+/// would be `next`, and the two change places: no memory is needed for a third one.
 class HistoryImage {
 public:
     explicit HistoryImage(std::string_view name) : name_(name) {}
 
     /// The same pair however often it is asked for in a frame. `previous` has no content after a frame in which it was
-    /// not asked for.
-    History swap(PassList& f, VkFormat format, uvec2 size);
+    /// not asked for. resample: of histories of the frame's size, or of a share of it.
+    History swap(PassList& f, VkFormat format, uvec2 size, Resample resample = Resample::never);
 
 private:
+    void make(PassList& f, const ImageInfo& info, Resample resample);
+    bool show(PassList& f, const ImageInfo& info);
+    void rescale(PassList& f, Resample resample);
+    [[nodiscard]] Image shown(uint32_t i) const;
+
     std::string_view name_;
     std::shared_ptr<HeldImage> images_[2];
+    Image from_;                ///< what was resampled last
+    uint64_t rescaleList_ = 0;  ///< whose pass does that; 0: none
     uint64_t lastUse_ = 0;
     uint64_t generation_ = 0;
     uint32_t current_ = 0;

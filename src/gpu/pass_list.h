@@ -73,6 +73,8 @@ public:
 
     /// An image whose memory others use while nobody needs its contents: for HistoryImage.
     std::shared_ptr<HeldImage> hold(const ImageInfo& info, const std::string& name) { return memory_.hold(info, name); }
+    /// Shows its memory as an image of another size. Returns false if that does not fit.
+    bool show(HeldImage& held, const ImageInfo& info) { return memory_.show(held, info, number_); }
 
     /// An image of one texel, to bind where a shader does not use what it declares; `array`: an array view.
     Image placeholder(VkFormat format, ViewKind view = ViewKind::byLayers);
@@ -83,6 +85,9 @@ public:
     [[nodiscard]] uint64_t generation() const { return generation_; }
     /// Invalidates all histories, as before the first frame, and the contents of all kept images.
     void forget() { ++generation_; }
+    /// From now on: sizes of the frames whose histories go on when these change.
+    void setSizes(const FrameSizes& sizes) { sizes_ = sizes; }
+    [[nodiscard]] const FrameSizes& sizes() const { return sizes_; }
     /// Number of the list that passes are appended to now.
     [[nodiscard]] uint64_t listNumber() const { return list_; }
     /// Whether the passes of that list were never recorded, so that what they should have written does not exist.
@@ -176,6 +181,7 @@ private:
 
     Context& context_;
     TransientMemory memory_;
+    FrameSizes sizes_;
     uint64_t generation_ = 0;
     uint64_t frame_ = 0;  ///< counts calls of clearFrame
     uint64_t list_ = 1;

@@ -10,8 +10,9 @@ namespace reflet::gpu {
 
 namespace {
 
-// Frames for which a plan stays that is not used.
+// Frames for which a plan stays that is not used; the latter for frames that change their size.
 constexpr uint64_t planFrames = 8;
+constexpr uint64_t sizedPlanFrames = 32;
 // Frames in a row that need less than half of the memory before it is given back.
 constexpr uint32_t mostRoomyFrames = 16;
 
@@ -220,10 +221,12 @@ void Recorder::flush() {
         }
     }
     for (const Listed& of : resources_) {
-        if (of.image && of.image.state->held != nullptr) {
-            of.image.state->held->usedFrame = number_ + 1;
+        HeldImage* const held = of.image ? of.image.state->held : nullptr;
+        if (held != nullptr && of.image.state == &held->current->state) {  // not what was only resampled
+            held->usedFrame = number_ + 1;
             if (missing_ == nullptr) {
-                of.image.state->held->recordedFrame = number_ + 1;
+                held->recordedFrame = number_ + 1;
+                held->occupant = of.image.state->id;
             }
         }
     }
@@ -256,7 +259,8 @@ void Recorder::noteAfter(const CachedPlan& cached) {
 // Plans that have not been used for a while, and memory that is scattered or much too large. Where one list makes a
 // frame, its memory is one block of the right size from the third frame on.
 void Recorder::dropUnused() {
-    std::erase_if(plans_, [&](const auto& cached) { return cached->lastUse + planFrames < number_; });
+    const uint64_t frames = sizes().rescale != nullptr ? sizedPlanFrames : planFrames;
+    std::erase_if(plans_, [&](const auto& cached) { return cached->lastUse + frames < number_; });
     if (listsOfFrame_ != 1 || missing_ != nullptr) {
         roomyFrames_ = 0;
         return;

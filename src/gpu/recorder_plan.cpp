@@ -28,8 +28,10 @@ uint32_t Recorder::listed(const Image& view) {
             resource.heap = state.held->heap;
             resource.offset = state.held->offset;
             resource.size = state.held->size;
-            // Others may have been in its memory.
-            resource.undefined = resource.undefined || (state.held->isNext && state.held->usedFrame != number_ + 1);
+            // Others may have been in its memory, also images of another size.
+            const HeldImage& held = *state.held;
+            const bool begins = held.isNext && held.usedFrame != number_ + 1 && &state == &held.current->state;
+            resource.undefined = resource.undefined || begins || held.occupant != state.id;
         }
         return state.mark.index;
     }

@@ -18,6 +18,9 @@ constexpr VkBufferUsageFlags bufferUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | 
 
 constexpr size_t mostNeeds = 1000;
 
+// Images in the memory of a held one.
+constexpr size_t mostSizes = 8;
+
 VkBuffer makeBuffer(Context& context, VkDeviceSize size, VkBufferUsageFlags usage) {
     VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     create.size = size;
@@ -35,10 +38,10 @@ PlacedImage::~PlacedImage() {
 }
 
 HeldImage::~HeldImage() {
-    context.retire([&of = context, all = state, memory = allocation] {
-        destroyImage(of, all);
-        of.memory().release(memory);
-    });
+    for (const std::unique_ptr<Sized>& image : images) {
+        context.retire([&of = context, all = image->state] { destroyImage(of, all); });
+    }
+    context.retire([&of = context, memory = allocation] { of.memory().release(memory); });
 }
 
 PlacedBuffer::~PlacedBuffer() {
@@ -172,29 +175,69 @@ std::shared_ptr<PlacedBuffer> TransientMemory::buffer(VkDeviceSize size, VkDevic
 
 std::shared_ptr<HeldImage> TransientMemory::hold(const ImageInfo& info, const std::string& name) {
     const Needs needs = needsOf(info);
-    auto image = std::make_shared<HeldImage>(context_);
-    image->info = info;
-    image->state.image = makeImage(context_, info, name);
-    image->state.id = nextResourceId();
-    image->state.name = name;
-    image->state.aspect = aspectOf(info.format);
+    auto image = std::make_shared<HeldImage>(context_, name);
     VkMemoryRequirements requirements = requirements_[needs.heap];
-    context_.vk.vkGetImageMemoryRequirements(context_.handle(), image->state.image, &requirements);
     // Whole steps of the heap's alignment, as all of it is lent.
-    requirements.alignment = requirements_[needs.heap].alignment;
-    requirements.size = alignUp(requirements.size, requirements.alignment);
+    requirements.size = alignUp(needs.size, requirements.alignment);
     image->allocation = context_.memory().allocate(requirements, MemoryUse::device, false);
-    context_.nameImage(image->state.image, name);
-    vkCheck(context_.vk.vkBindImageMemory(context_.handle(), image->state.image, image->allocation.memory,
-                                          image->allocation.offset),
-            "binding image memory");
-    makeViews(context_, info, image->state);
-    image->state.bytes = needs.size;
-    image->state.held = image.get();
     image->heap = needs.heap;
     image->size = requirements.size;
+    image->current = &addSized(*image, info);
     addHeld({image, needs.heap, 0, 0}, *image);
     return image;
+}
+
+bool TransientMemory::show(HeldImage& held, const ImageInfo& info, uint64_t frame) {
+    held.current->lastShown = frame;
+    auto known = std::ranges::find_if(held.images, [&](const auto& image) { return image->info == info; });
+    if (known == held.images.end()) {
+        const Needs needs = needsOf(info);
+        const VkMemoryRequirements& given = requirements_[held.heap];
+        if (needs.size > held.size || requirements_[needs.heap].memoryTypeBits != given.memoryTypeBits ||
+            needs.alignment > given.alignment) {
+            return false;
+        }
+        if (held.images.size() >= mostSizes) {  // the longest unused one goes, but none of this and the last frame
+            const auto oldest =
+                std::ranges::min_element(held.images, {}, [](const auto& image) { return image->lastShown; });
+            if ((*oldest)->lastShown + 1 < frame && oldest->get() != held.current) {
+                context_.retire([&of = context_, all = (*oldest)->state] { destroyImage(of, all); });
+                held.images.erase(oldest);
+            }
+        }
+        addSized(held, info);
+        known = std::prev(held.images.end());
+    }
+    held.current = known->get();
+    held.current->lastShown = frame;
+    return true;
+}
+
+HeldImage::Sized& TransientMemory::addSized(HeldImage& held, const ImageInfo& info) {
+    held.images.reserve(held.images.size() + 1);
+    auto sized = std::make_unique<HeldImage::Sized>();
+    sized->info = info;
+    ImageState& state = sized->state;
+    state.image = makeImage(context_, info, held.name);
+    try {
+        VkMemoryRequirements needs{};
+        context_.vk.vkGetImageMemoryRequirements(context_.handle(), state.image, &needs);
+        state.bytes = needs.size;
+        context_.nameImage(state.image, held.name);
+        vkCheck(context_.vk.vkBindImageMemory(context_.handle(), state.image, held.allocation.memory,
+                                              held.allocation.offset),
+                "binding image memory");
+        makeViews(context_, info, state);
+    } catch (...) {
+        destroyImage(context_, state);
+        throw;
+    }
+    state.id = nextResourceId();
+    state.name = held.name;
+    state.aspect = aspectOf(info.format);
+    state.held = &held;
+    held.images.push_back(std::move(sized));
+    return *held.images.back();
 }
 
 void TransientMemory::addHeld(HeldBlock block, HeldImage& image) {
@@ -216,7 +259,7 @@ HeldUse TransientMemory::useOf(const HeldImage& image, uint64_t frame, bool othe
     const auto written = [&](const HeldImage& next) { return next.usedFrame == frame + 1; };
     if (image.frame == frame) {
         if (image.isNext) {
-            return written(image) ? HeldUse::busy : HeldUse::fromFirst;
+            return written(image) || image.rescaledFrame == frame + 1 ? HeldUse::busy : HeldUse::fromFirst;
         }
         return other && (written(*other) || otherIsListed) ? HeldUse::untilLast : HeldUse::busy;
     }

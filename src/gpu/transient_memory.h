@@ -28,11 +28,20 @@ struct PlacedImage {
 };
 
 /// An image that keeps its contents from one frame to the next, in memory that others use while nobody needs them.
-/// One of the two of a history.
+/// One of the two of a history. Images of several sizes may lie in that memory, one of which holds the contents.
 struct HeldImage {
+    /// An image at the start of the memory.
+    struct Sized {
+        ImageInfo info;
+        ImageState state;
+        uint64_t lastShown = 0;  ///< frame number
+    };
+
     Context& context;
-    ImageInfo info;
-    ImageState state;
+    std::string name;
+    std::vector<std::unique_ptr<Sized>> images;  ///< all that there are; few
+    Sized* current = nullptr;                    ///< of these, that frames use now
+    uint64_t occupant = 0;                       ///< ImageState::id of the one that was used last as the current one
     Allocation allocation;
     uint32_t heap = 0;
     VkDeviceSize offset = 0;  ///< in the heap
@@ -42,10 +51,12 @@ struct HeldImage {
     bool isNext = false;         ///< it is written in this frame; otherwise it was in the last one
     uint64_t usedFrame = 0;      ///< the last one in which an earlier list used it, plus 1
     uint64_t recordedFrame = 0;  ///< the last one in which a list that uses it was recorded, plus 1
+    uint64_t rescaledFrame = 0;  ///< the last one in which it was written as the next one after its content of another
+                                 ///< size had been resampled, plus 1
 
     std::weak_ptr<HeldImage> other;  ///< of the same history
 
-    explicit HeldImage(Context& of) : context(of) {}
+    HeldImage(Context& of, std::string name) : context(of), name(std::move(name)) {}
     ~HeldImage();
     HeldImage(const HeldImage&) = delete;
     HeldImage& operator=(const HeldImage&) = delete;
@@ -88,6 +99,8 @@ public:
 
     /// Makes an image that is held until its owner lets go of it.
     std::shared_ptr<HeldImage> hold(const ImageInfo& info, const std::string& name);
+    /// Makes an image of this kind its current one. Returns false, and does nothing, if its memory does not do for it.
+    bool show(HeldImage& held, const ImageInfo& info, uint64_t frame);
     /// Says in `heaps` when held memory is free in the list at hand. resourceOf: of a state, or HeldRange::unused.
     template <class F>
     void describeHeld(std::vector<GraphHeap>& heaps, uint64_t frame, const F& resourceOf) const {
@@ -96,8 +109,8 @@ public:
             HeldRange range{{block.offset, block.size}, HeldUse::busy, HeldRange::unused};
             if (image) {
                 const std::shared_ptr<HeldImage> other = image->other.lock();
-                range.use = useOf(*image, frame, other && resourceOf(other->state) != HeldRange::unused);
-                range.resource = resourceOf(image->state);
+                range.use = useOf(*image, frame, other && resourceOf(other->current->state) != HeldRange::unused);
+                range.resource = resourceOf(image->current->state);
             }
             heaps[block.heap].held.push_back(range);
         }
@@ -132,6 +145,7 @@ private:
     };
     static HeldUse useOf(const HeldImage& image, uint64_t frame, bool otherIsListed);
     void addHeld(HeldBlock block, HeldImage& image);
+    HeldImage::Sized& addSized(HeldImage& held, const ImageInfo& info);
     uint32_t heapOf(uint32_t memoryTypes, VkDeviceSize alignment);
     Block& blockOf(uint32_t heap, VkDeviceSize offset);
 

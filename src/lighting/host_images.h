@@ -2,6 +2,7 @@
 #pragma once
 
 #include "effects/import/import.h"
+#include "effects/rescale/rescale.h"
 #include "lighting/surfaces.h"
 
 namespace reflet::lighting {
@@ -20,5 +21,9 @@ void measureLight(gpu::PassList& f, LightBound& bound, gpu::Image light);
 
 /// R32F: the cascades' maps as tiles, depth reversed. map: a 2D array view if there are several.
 gpu::Image importShadowMap(gpu::PassList& f, gpu::Image map, uint32_t cascades, bool reversed);
+
+/// What keeps histories when the size of the frames changes: for gpu::FrameSizes.
+using reflet::rescaledFormats;
+using reflet::rescaleHistory;
 
 }  // namespace reflet::lighting

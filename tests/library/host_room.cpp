@@ -53,10 +53,19 @@ struct RoomImages {
 };
 
 // What a ray through the pixel meets: floor y = 0 in front of a wall at z = -3, 2 m high, and sky above.
-void addPixel(RoomImages& images, uint32_t i, const mat4& toView, bool odd) {
-    constexpr float width = HostRoom::width;
-    constexpr float height = HostRoom::height;
-    const vec2 uv((float(i % HostRoom::width) + 0.5F) / width, (float(i / HostRoom::width) + 0.5F) / height);
+void addPixel(RoomImages& images, uint32_t i, const mat4& toView, const RoomConventions& conventions) {
+    const bool odd = conventions.unusual;
+    const vec2 size(conventions.drawn.x > 0 ? conventions.drawn : uvec2(HostRoom::width, HostRoom::height));
+    const vec2 pixel(float(i % HostRoom::width), float(i / HostRoom::width));
+    if (pixel.x >= size.x || pixel.y >= size.y) {
+        images.depth.push_back(NAN);
+        for (std::vector<vec4>* image :
+             {&images.normal, &images.color, &images.material, &images.motion, &images.lit}) {
+            image->emplace_back(NAN);
+        }
+        return;
+    }
+    const vec2 uv = (pixel + 0.5F + conventions.jitter) / size;
     const vec2 ndc = 2.0F * uv - 1.0F;
     const vec3 ray(glm::inverse(toView) *
                    vec4(ndc.x / projection(odd)[0][0], -ndc.y * tangent, -1.0F, 0.0F));  // 1 m ahead
@@ -75,9 +84,9 @@ void addPixel(RoomImages& images, uint32_t i, const mat4& toView, bool odd) {
     const float metallic = floor ? 1.0F : 0.0F;
     images.material.push_back(odd ? vec4(0.0F, metallic, 0.0F, roughness * roughness)
                                   : vec4(roughness, metallic, 0.0F, 0.0F));
-    const vec2 moved(0.01F, -0.02F);  // uv
-    images.motion.push_back(odd ? vec4(-moved.x * width, -moved.y * height, 0.0F, 0.0F) : vec4(moved, 0.0F, 0.0F));
-    const float spot = i % HostRoom::width / 8 % 2 == 0 ? 1.0F : 0.3F;
+    const vec2 moved = conventions.still ? vec2(0.0F) : vec2(0.01F, -0.02F);  // uv
+    images.motion.push_back(odd ? vec4(-moved.x * size.x, -moved.y * size.y, 0.0F, 0.0F) : vec4(moved, 0.0F, 0.0F));
+    const float spot = int(std::floor(8.0F * uv.x)) % 2 == 0 ? 1.0F : 0.3F;
     images.lit.push_back(sky ? vec4(0.5F, 0.6F, 0.8F, 1.0F) : vec4(spot * albedo, 1.0F));
 }
 
@@ -103,7 +112,7 @@ HostRoom::HostRoom(LibraryHost& host, RoomConventions conventions) {
     const mat4 toView = glm::lookAt(eye, vec3(0.0F, 0.6F, 0.0F), vec3(0.0F, 1.0F, 0.0F));
     RoomImages images;
     for (uint32_t i = 0; i < width * height; ++i) {
-        addPixel(images, i, toView, odd);
+        addPixel(images, i, toView, conventions);
     }
     if (conventions.spoiled) {
         spoil(images);
@@ -113,6 +122,10 @@ HostRoom::HostRoom(LibraryHost& host, RoomConventions conventions) {
     store(info_.worldToView, toView);
     store(info_.viewToClip, projection(odd));
     info_.clipYUp = odd ? 1 : 0;
+    info_.jitter[0] = conventions.jitter.x;
+    info_.jitter[1] = conventions.jitter.y;
+    info_.renderSize[0] = conventions.drawn.x;
+    info_.renderSize[1] = conventions.drawn.y;
     RefletGBuffer& g = gbuffer_;
     g.structSize = sizeof g;
     g.depth = host.makeImage(VK_FORMAT_R32_SFLOAT, width, height, images.depth);
@@ -167,8 +180,11 @@ RefletSunShadow HostRoom::sun() const {
 
 RoomResults recordRoom(const HostRoom& room, RefletView view, RefletSettings settings, VkCommandBuffer commands,
                        uint32_t index) {
+    return recordRoom(room, room.frame(commands, index), view, settings);
+}
+
+RoomResults recordRoom(const HostRoom& room, const RefletFrameInfo& frame, RefletView view, RefletSettings settings) {
     RoomResults out;
-    const RefletFrameInfo frame = room.frame(commands, index);
     const RefletSunShadow sun = room.sun();
     const RefletIndirectLight light = room.light();
     out.sum.structSize = sizeof out.sum;

@@ -76,6 +76,9 @@ private:
 struct RoomConventions {
     bool spoiled = false;  ///< infinity, NaN, 65504 and negative values in every image
     bool unusual = false;  ///< standard depth, y up, view-space unorm normals, sRGB, alpha, pixels before minus now
+    uvec2 drawn{0};        ///< RefletFrameInfo::renderSize; images are as large as ever, and NaN around that. 0: all
+    vec2 jitter{0.0F};     ///< pixels
+    bool still = false;    ///< nothing moves; otherwise motion vectors say that all does
 };
 
 /// A floor, a wall and sky, from analytic rays.
@@ -121,6 +124,8 @@ struct RoomResults {
 /// Records all effects. Fails the test on an error.
 RoomResults recordRoom(const HostRoom& room, RefletView view, RefletSettings settings, VkCommandBuffer commands,
                        uint32_t index);
+/// frame: of the room, as tests have changed it.
+RoomResults recordRoom(const HostRoom& room, const RefletFrameInfo& frame, RefletView view, RefletSettings settings);
 
 /// Asserts success, and prints the library's text otherwise.
 #define EXPECT_REFLET(call) EXPECT_EQ(call, REFLET_SUCCESS) << refletLastError()

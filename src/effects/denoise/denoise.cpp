@@ -92,9 +92,11 @@ DenoiseHistory denoiseHistory(gpu::PassList& f, DenoiseStore* own, uint32_t lobe
                 written("denoise.moments", momentsFormat), unread(lightFormat)};
     }
     const bool turns = lobe == lobeDiffuse && settings.directional != 0;
-    DenoiseHistory past{own->light.swap(f, lightFormat, size), own->surface.swap(f, surfaceFormat, size),
-                        own->moments.swap(f, momentsFormat, size),
-                        own->directional.swap(f, lightFormat, turns ? size : uvec2(1))};
+    DenoiseHistory past{own->light.swap(f, lightFormat, size, gpu::Resample::linear),
+                        own->surface.swap(f, surfaceFormat, size, gpu::Resample::depthInRed),
+                        own->moments.swap(f, momentsFormat, size, gpu::Resample::linear),
+                        own->directional.swap(f, lightFormat, turns ? size : uvec2(1),
+                                              turns ? gpu::Resample::linear : gpu::Resample::never)};
     past.valid = past.light.valid && past.surface.valid && past.directional.valid;
     return past;
 }

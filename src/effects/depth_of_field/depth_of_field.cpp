@@ -81,7 +81,7 @@ gpu::Image apparentDepth(gpu::PassList& f, const DofInputs& in) {
 
 gpu::Image circleOfConfusion(gpu::PassList& f, gpu::HistoryImage& own, const DofInputs& in, float height) {
     const uvec2 size = in.depth.size;
-    const gpu::History coc = own.swap(f, VK_FORMAT_R32_SFLOAT, size);
+    const gpu::History coc = own.swap(f, VK_FORMAT_R32_SFLOAT, size, gpu::Resample::nearest);
     const bool steady = in.motion && coc.valid;
     const bool orthographic = in.view.eye.w == 0.0F;
     const float pixelAngle = in.view.pixelAngle * in.view.size.y / height;  // of the picture

@@ -25,7 +25,7 @@ RayTiles shareRays(gpu::PassList& f, gpu::HistoryImage& own, const RaySurfaces& 
                    const RayCounts& counts, const LobeHistory& past) {
     const uvec2 size = (from.g.depth.size + rayTileSide - 1U) / rayTileSide;
     const gpu::Image noise = f.image("noise", VK_FORMAT_R32G32_SFLOAT, size);
-    const gpu::History tiles = own.swap(f, VK_FORMAT_R32G32_SFLOAT, size);
+    const gpu::History tiles = own.swap(f, VK_FORMAT_R32G32_SFLOAT, size, gpu::Resample::nearest);
     const gpu::BufferView histogram = f.buffer("noise_histogram", histogramSize * sizeof(uint32_t));
     constexpr std::array<uint32_t, histogramSize> none{};
     f.update(histogram, std::as_bytes(std::span(none)));

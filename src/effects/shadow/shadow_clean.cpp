@@ -41,7 +41,7 @@ gpu::Image denoiseShadow(gpu::PassList& f, gpu::HistoryImage* own, const GBuffer
     constexpr VkFormat historyFormat = VK_FORMAT_R32G32_UINT;
     gpu::History history{f.placeholder(historyFormat), f.placeholder(historyFormat)};
     if (params.historyFrames > 0) {
-        history = own->swap(f, historyFormat, size);
+        history = own->swap(f, historyFormat, size, gpu::Resample::depthInGreen);
         f.clear(history.next);
     }
     params.hasPrevious = history.valid ? 1 : 0;

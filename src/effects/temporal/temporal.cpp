@@ -31,8 +31,8 @@ Histories swapHistories(gpu::PassList& f, TemporalStore& own, uvec2 size, uvec2 
     Histories h{own.mean.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, output),
                 own.deviations.swap(f, VK_FORMAT_R16G16_SFLOAT, output),
                 {},
-                own.seen.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
-                own.changes.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
+                own.seen.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, size, gpu::Resample::nearest),
+                own.changes.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, size, gpu::Resample::nearest),
                 false};
     h.valid = h.mean.valid && h.seen.valid && h.changes.valid;
     if (covers) {
@@ -131,7 +131,8 @@ TemporalImages temporal(gpu::PassList& f, TemporalStore& own, const TemporalInpu
                                 in.view.frame,
                                 h.valid ? 1U : 0U,
                                 in.view.rest < framesThatFollow ? 1U : 0U,
-                                in.sky != nullptr ? 1U : 0U};
+                                in.sky != nullptr ? 1U : 0U,
+                                f.sizes().before != f.sizes().now ? 1U : 0U};
     if (size != output) {
         upscale(f, h, in, params);
     } else {

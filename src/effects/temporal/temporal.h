@@ -57,6 +57,7 @@ struct TemporalParams {
     uint hasPrevious;   // 1: the history holds the last frame
     uint mayChange;     // 1: something has changed in the last framesThatFollow frames
     uint skyIsFixed;    // 1: where depth is 0 the picture changes by the camera alone
+    uint resized;       // 1: the last frame had another size, and so neighbourhoods of another size
 };
 
 struct TemporalUpscaleParams {

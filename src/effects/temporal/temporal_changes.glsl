@@ -19,6 +19,7 @@ struct Changed {
 
 // Jitter changes the mean, too: only the differences of several frames together tell that light changed. Then earlier
 // frames count as lit alike, so that the detail they have is kept.
+// Neighbourhoods of frames of another size are others: what is known of them starts anew.
 Changed changedAt(ivec2 pixel, float luma, Seen now) {
     if (now.sky) {
         imageStore(changes, pixel, vec4(0.0));
@@ -29,7 +30,7 @@ Changed changedAt(ivec2 pixel, float luma, Seen now) {
     bool rests = length(now.moved * vec2(params.size)) < asGoodAsStill;
     bool known = now.follows && rests;
     if (known) {
-        past = imageLoad(previousChanges, pixel);
+        past = imageLoad(previousChanges, pixel) * float(1u - params.resized);
     }
     float frames = min(past.a + 1.0, lastingFrames);
     float off = past.a > 0.0 ? luma - past.x : 0.0;
