@@ -54,8 +54,6 @@ runShard() {  # name program filter shard shards
     GALLIVM_PERF=$shaderCompiler
     [[ "$1" != *_tracing ]] || GALLIVM_PERF=
     export GALLIVM_PERF
-    # Narrower vectors halve the time that the newer driver takes to compile the shaders of ray query.
-    [[ "$1" != *_ray_query ]] || export LP_NATIVE_VECTOR_WIDTH=128
     [[ "$5" == 1 ]] || export GTEST_TOTAL_SHARDS=$5 GTEST_SHARD_INDEX=$4
     timeout "$limit" "$2" "--gtest_filter=$3" \
         "--gtest_output=json:$base.json" >"$base.log" 2>&1 || status=$?

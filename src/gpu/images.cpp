@@ -140,7 +140,9 @@ History HistoryImage::swap(PassList& f, VkFormat format, uvec2 size, Resample re
     const Image before = rescales ? shown(current_ ^ 1U) : Image{};
     if (!steady) {
         valid_ = rescales;
-        if (!complete || !show(f, info)) {
+        // Other callers give memory back when a size changes.
+        const bool keepsMemory = f.sizes().rescale != nullptr;
+        if (!complete || !keepsMemory || !show(f, info)) {
             valid_ = false;
             make(f, info, resample);
         }

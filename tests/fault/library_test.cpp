@@ -98,7 +98,8 @@ protected:
     }
 
     RefletView createView(Caller& call, RefletContext context) {
-        const RefletViewInfo info{sizeof info, HostRoom::width, HostRoom::height, test::Host::framesInFlight, 0, 0};
+        const RefletViewInfo info{
+            sizeof info, HostRoom::width, HostRoom::height, test::Host::framesInFlight, REFLET_VIEW_PASS_TIMES, 0};
         RefletView view = nullptr;
         call("refletCreateView", [&] { return refletCreateView(context, &info, &view); });
         if (view == nullptr) {

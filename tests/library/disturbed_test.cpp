@@ -281,8 +281,8 @@ double relativeError(const std::vector<vec4>& picture, const std::vector<vec4>& 
     return sum / (3.0 * double(picture.size()));
 }
 
-// Takes 25 s on two busy cores: each input of the API, with each kind of value. Of surfaces histories keep less at rest
-// than in motion.
+// Takes 20 s on two busy cores: each input of the API, with a value of each kind: not finite, and too large. Of
+// surfaces histories keep less at rest than in motion.
 TEST_F(Disturbed, NothingOfABlockLasts) {
     for (const bool rests : {false, true}) {
         std::vector<vec4> wanted[4];
@@ -290,7 +290,7 @@ TEST_F(Disturbed, NothingOfABlockLasts) {
             wanted[size_t(framesThatRead(input))] = pictureAfter(input, nullptr, rests);
         }
         for (uint8_t i = 0; i < inputs; ++i) {
-            for (const float value : {INFINITY, NAN, 65504.0F}) {
+            for (const float value : {i % 2 == 0 ? INFINITY : NAN, 65504.0F}) {
                 if (rests && !shines(Input(i))) {
                     continue;
                 }

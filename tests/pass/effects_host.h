@@ -124,6 +124,9 @@ public:
         f.keep(lighting::importLight(f, stores_.sky.last()));
         f.keep(lighting::importShadowMap(f, stores_.shadowMap.last(), 1, true));
         f.keep(lighting::keptDepth(f, view, {.format = DepthBuffer::standard16}, surfaces.g.depth));
+        const gpu::Image smaller = f.image("host.smaller", colorFormat, uvec2(8));
+        lighting::rescaleHistory(f, stores_.sky.last(), smaller, gpu::Resample::linear);
+        f.keep(smaller);
         const LightingSettings settings = settingsOfHost();
         const gpu::Image direct = lightDirectly(f, context, settings, surfaces);
         surfaces.ambientOcclusion = lighting::ambientOcclusion(f, &stores_.ao, context, settings, surfaces);
@@ -131,7 +134,8 @@ public:
         const gpu::History lit = stores_.lit.swap(f, colorFormat, size);
         const lighting::LightParts parts = lightIndirectly(f, context, settings, surfaces, direct, lit);
         const lighting::Light light = lighting::compose(f, context, settings, surfaces, parts, true, lit.next);
-        const lighting::Light mean = lighting::antialias(f, stores_.temporal, context, settings, light, {size, vec2(0.0F)});
+        const lighting::Light mean =
+            lighting::antialias(f, stores_.temporal, context, settings, light, {size, vec2(0.0F)});
         const lighting::Light upscaled =
             lighting::antialias(f, stores_.upscaling, context, settings, light, {2U * size, vec2(0.1F, -0.2F)});
         const Lens lens{.apertureRadius = 0.05F, .focusDistance = 2.0F};
@@ -212,9 +216,7 @@ private:
 
     lighting::ViewContext contextOf(gpu::PassList& f, const ViewParams& view) {
         return {.view = view,
-                .environment = {stores_.sky.last(),
-                                stores_.cube.lobes.image(),
-                                stores_.cube.irradiance.image(),
+                .environment = {stores_.sky.last(), stores_.cube.lobes.image(), stores_.cube.irradiance.image(),
                                 lighting::environmentParams(vec3(1.0F), 0.0F)},
                 .ggxTable = stores_.ggx.last(),
                 .blueNoise = stores_.blueNoise.get(f, blueNoise().size_bytes())};

@@ -94,10 +94,11 @@ TEST(EffectsHost, RecordsEveryEffectBetweenItsOwnCommands) {
             }
         }
         EXPECT_TRUE(made == context.counts())
-            << "frames 9 to 13 made something: images " << made.images << ", " << context.counts().images << "; buffers "
-            << made.buffers << ", " << context.counts().buffers << "; memory " << made.memoryBlocks << ", "
-            << context.counts().memoryBlocks << "; pipelines " << made.pipelines << ", " << context.counts().pipelines
-            << "; pools " << made.descriptorPools << ", " << context.counts().descriptorPools;
+            << "frames 9 to 13 made something: images " << made.images << ", " << context.counts().images
+            << "; buffers " << made.buffers << ", " << context.counts().buffers << "; memory " << made.memoryBlocks
+            << ", " << context.counts().memoryBlocks << "; pipelines " << made.pipelines << ", "
+            << context.counts().pipelines << "; pools " << made.descriptorPools << ", "
+            << context.counts().descriptorPools;
         host.waitForAll();
         recorder.finish();
         expectLight(recorder, results.lit, colorFormat, "lit");
@@ -255,10 +256,10 @@ TEST(EffectsHost, TellsTheMemoryThatItAllocates) {
 
 // A new effect is to be recorded above, too.
 TEST(EffectsHost, KnowsEveryEffect) {
-    const std::set<std::string> recorded{
-        "accumulate", "ambient_occlusion", "composite", "contact",  "cube_map",   "denoise", "depth_of_field",
-        "direct",     "environment",       "exposure",  "gbuffer",  "light_mips", "lobe",    "planar",
-        "import",     "pyramid",           "shadow",    "temporal", "tonemap"};
+    const std::set<std::string> recorded{"accumulate", "ambient_occlusion", "composite", "contact",     "cube_map",
+                                         "denoise",    "depth_of_field",    "direct",    "environment", "exposure",
+                                         "gbuffer",    "light_mips",        "lobe",      "planar",      "import",
+                                         "pyramid",    "rescale",           "shadow",    "temporal",    "tonemap"};
     for (const auto& entry : std::filesystem::directory_iterator(REFLET_EFFECTS)) {
         if (entry.is_directory()) {
             EXPECT_TRUE(recorded.contains(entry.path().filename().string())) << entry.path();
