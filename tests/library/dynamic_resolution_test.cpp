@@ -161,7 +161,7 @@ TEST_F(DynamicResolution, PreparesForAllSizes) {
 }
 
 // The error of the antialiased picture, and of one that was rendered at a middle size all the time.
-TEST_F(DynamicResolution, PicturesAreNearlyAsGoodAsThoseOfOneSize) {
+TEST_F(DynamicResolution, PicturesAreAtMostThreeTimesAsWrongAsThoseOfOneSize) {
     constexpr uint32_t frames = 48;
     const auto last = [&](const auto& sizeOf, uint32_t count, bool rests) {
         RefletView view = makeView(context_, 3);
