@@ -144,12 +144,13 @@ else
         # That driver keeps nothing, so that any memory that grows is ours.
         withDriver "$driver" fault_tests fault_tests_second_driver
         addShards fault_tests_second_driver build/fault_tests_second_driver 'LongRun*' 1
+        ofFaults='-LongRun*'
     else
         echo "tests by ray query and on a newer driver are skipped"
     fi
 fi
 addShards library_tests build/bin/library_tests "$filter" 2
-addShards fault_tests build/bin/fault_tests "$filter" 1
+addShards fault_tests build/bin/fault_tests "${ofFaults-$filter}" 1
 addShards shader_tests build/bin/shader_tests "$filter" 1
 addShards reference_tests build/bin/reference_tests "$filter" 1
 addShards unit_tests build/bin/unit_tests "$filter" 1

@@ -19,8 +19,8 @@ typedef struct Picture {
 
 /* As std140 in room.glsl. */
 typedef struct Camera {
-    float world_to_view[16], world_to_clip[16], world_to_clip_plain[16], previous_world_to_clip[16],
-        world_to_sun[16], to_sun[4], sky[4];
+    float world_to_view[16], world_to_clip[16], world_to_clip_plain[16], previous_world_to_clip[16], world_to_sun[16],
+        to_sun[4], sky[4];
 } Camera;
 
 typedef struct Slot { /* one per frame in flight */
@@ -84,7 +84,8 @@ typedef struct Download {
 } Download;
 Download make_download(Host* h, uint32_t width, uint32_t height);
 /* Records the copy; the image is in the layout GENERAL, and these wrote it last. */
-void record_download(const Download* d, VkCommandBuffer commands, VkImage image, VkPipelineStageFlags2 stages, VkAccessFlags2 access);
+void record_download(const Download* d, VkCommandBuffer commands, VkImage image, VkPipelineStageFlags2 stages,
+                     VkAccessFlags2 access);
 /* After the device has finished: writes a PPM file, and frees the buffer. */
 void write_download(Host* h, Download* d, const char* path);
 

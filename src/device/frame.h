@@ -21,8 +21,8 @@ public:
 
     /// Starts recording. Requires that `wait` was called for the last frame.
     void begin();
-    /// Until submit(), finishes each pass that is listed from now on before the next one is recorded, and calls `stop` in
-    /// between. If that returns true, submit() throws FrameStopped: the passes so far have run, and the frame is
+    /// Until submit(), finishes each pass that is listed from now on before the next one is recorded, and calls `stop`
+    /// in between. If that returns true, submit() throws FrameStopped: the passes so far have run, and the frame is
     /// abandoned; call forget() before the next one. For devices on which a pass takes much longer than a submission.
     void runPassByPass(std::function<bool()> stop);
     /// Submits the recorded commands.

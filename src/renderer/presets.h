@@ -21,8 +21,8 @@ struct Preset {
     bool study;        ///< shows a single method, rather than being the best that its time allows
 };
 
-/// Those to render with first: that of finished pictures, then from the fastest to the most exact; then those for study,
-/// by name.
+/// Those to render with first: that of finished pictures, then from the fastest to the most exact; then those for
+/// study, by name.
 std::vector<Preset> presets();
 
 /// The preset that programs use by default.

@@ -4,6 +4,7 @@
 
 #include "scene/builtin.h"
 #include "scene/gltf/gltf.h"
+#include "support/swept_scenes.h"
 
 #include <cstdlib>
 #include <filesystem>
@@ -51,21 +52,15 @@ protected:
     }
 };
 
-class SceneRaysOfScene : public SceneRaysBothWays, public ::testing::WithParamInterface<BuiltinScene> {};
+class SceneRaysOfScene : public SceneRaysBothWays, public ::testing::WithParamInterface<std::string> {};
 
 // Over 5 s: many rays, of which a few graze edges.
 TEST_P(SceneRaysOfScene, HitWhatEmbreeHits) {
-    expectSameOf(std::string(GetParam().name), withoutCutOuts(GetParam().make()));
+    expectSameOf(GetParam(), withoutCutOuts(findBuiltinScene(GetParam())->make()));
 }
 
-std::string sceneName(const ::testing::TestParamInfo<BuiltinScene>& scene) {
-    std::string name(scene.param.name);
-    std::erase(name, '-');
-    return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Builtin, SceneRaysOfScene, ::testing::ValuesIn(builtinScenes().begin(), builtinScenes().end()),
-                         sceneName);
+INSTANTIATE_TEST_SUITE_P(Builtin, SceneRaysOfScene, ::testing::ValuesIn(sweptScenes()),
+                         [](const auto& chosen) { return nameInTests(chosen.param); });
 
 using SceneRaysOfFile = SceneRaysBothWays;
 

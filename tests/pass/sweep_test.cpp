@@ -6,6 +6,7 @@
 #include "renderer/presets.h"
 #include "scene/builtin.h"
 #include "support/device_fixture.h"
+#include "support/swept_scenes.h"
 
 #include <fmt/format.h>
 
@@ -290,13 +291,6 @@ std::vector<std::string> groups() {
 INSTANTIATE_TEST_SUITE_P(Settings, SweepOfGroup, testing::ValuesIn(groups()),
                          [](const auto& chosen) { return chosen.param; });
 
-std::vector<std::string> sceneNames() {
-    std::vector<std::string> names;
-    std::ranges::transform(builtinScenes(), std::back_inserter(names),
-                           [](const BuiltinScene& s) { return std::string(s.name); });
-    return names;
-}
-
 class SweepOfScene : public Sweep, public testing::WithParamInterface<std::string> {};
 
 // Over 5 s: frames with several presets, with pipelines of their own.
@@ -324,7 +318,7 @@ TEST_P(SweepOfScene, IsSoundInEveryShowAndWithEveryPreset) {
         }
     }
     // A third of the presets with each scene, and so each with several: compiling their shaders takes most of the time.
-    const std::vector<std::string> scenes = sceneNames();
+    const std::vector<std::string> scenes = sweptScenes();
     const auto index = static_cast<size_t>(std::ranges::find(scenes, GetParam()) - scenes.begin());
     const auto known = presets();
     for (size_t i = index % 3; i < known.size(); i += 3) {
@@ -338,11 +332,8 @@ TEST_P(SweepOfScene, IsSoundInEveryShowAndWithEveryPreset) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, SweepOfScene, testing::ValuesIn(sceneNames()), [](const auto& chosen) {
-    std::string name = chosen.param;
-    std::ranges::replace(name, '-', '_');
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(Scenes, SweepOfScene, testing::ValuesIn(sweptScenes()),
+                         [](const auto& chosen) { return nameInTests(chosen.param); });
 
 TEST_F(Sweep, OddSizesDownToOnePixelWork) {
     const Scene scene = findBuiltinScene("cubes")->make();

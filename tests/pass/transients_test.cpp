@@ -7,6 +7,7 @@
 #include "renderer/renderer.h"
 #include "scene/builtin.h"
 #include "support/device_fixture.h"
+#include "support/swept_scenes.h"
 
 #include <algorithm>
 #include <array>
@@ -106,18 +107,8 @@ TEST_F(TransientsOfFrame, WhatNoPassWroteIsNaN) {
     EXPECT_TRUE(std::ranges::all_of(values, [](float v) { return std::isnan(v); }));
 }
 
-std::vector<std::string> sceneNames() {
-    std::vector<std::string> names;
-    std::ranges::transform(builtinScenes(), std::back_inserter(names),
-                           [](const BuiltinScene& scene) { return std::string(scene.name); });
-    return names;
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, Transients, testing::ValuesIn(sceneNames()), [](const auto& chosen) {
-    std::string name = chosen.param;
-    std::ranges::replace(name, '-', '_');
-    return name;
-});
+INSTANTIATE_TEST_SUITE_P(Scenes, Transients, testing::ValuesIn(sweptScenes()),
+                         [](const auto& chosen) { return nameInTests(chosen.param); });
 
 }  // namespace
 }  // namespace reflet::test::transients_test

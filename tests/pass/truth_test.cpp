@@ -3,6 +3,7 @@
 #include "pass/harness.h"
 #include "reference/reference.h"
 #include "scene/builtin.h"
+#include "support/swept_scenes.h"
 
 #include <algorithm>
 
@@ -111,11 +112,11 @@ TEST_P(VisibleOnly, DiffuseLightOfOneBounceIsThatOfAPathTracerThatSeesWhatTheCam
 INSTANTIATE_TEST_SUITE_P(Scenes, VisibleOnly, testing::Values("cubes", "cornell", "cave"),
                          [](const auto& scene) { return std::string(scene.param); });
 
-class Energy : public testing::TestWithParam<const BuiltinScene*> {};
+class Energy : public testing::TestWithParam<std::string> {};
 
 // Over 5 s: noise must be far below the 2 % that are tested.
 TEST_P(Energy, IsAtMostTwoPercentAboveTheTruthWithOneBounceAndWithAll) {
-    const Scene scene = GetParam()->make();
+    const Scene scene = findBuiltinScene(GetParam())->make();
     View view = defaultView(scene);
     view.camera.apertureRadius = 0.0F;  // it is about light, not about blur
     for (const bool one : {true, false}) {
@@ -130,24 +131,13 @@ TEST_P(Energy, IsAtMostTwoPercentAboveTheTruthWithOneBounceAndWithAll) {
                                   {"final"}, one ? 1 : 6);
         const Difference d = compareImages(p.images.at("final"), truth.final, {}).difference;
         // Glass: 1.8 % on llvmpipe, 2.1 % on a GPU.
-        EXPECT_LT(d.bias, std::string(GetParam()->name) == "glass" ? 0.022 : 0.02)
-            << (one ? "one bounce" : "all bounces");
+        EXPECT_LT(d.bias, GetParam() == "glass" ? 0.022 : 0.02) << (one ? "one bounce" : "all bounces");
         RecordProperty(one ? "bias_one_bounce" : "bias_all_bounces", std::to_string(d.bias));
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Energy, testing::ValuesIn([] {
-                             std::vector<const BuiltinScene*> all;
-                             for (const BuiltinScene& scene : builtinScenes()) {
-                                 all.push_back(&scene);
-                             }
-                             return all;
-                         }()),
-                         [](const auto& scene) {
-                             std::string name(scene.param->name);
-                             std::ranges::replace(name, '-', '_');
-                             return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Scenes, Energy, testing::ValuesIn(sweptScenes()),
+                         [](const auto& chosen) { return nameInTests(chosen.param); });
 
 }  // namespace
 }  // namespace reflet::test::truth_test

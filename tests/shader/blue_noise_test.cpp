@@ -120,8 +120,8 @@ double discrepancy(const std::vector<vec2>& points) {
     return most;
 }
 
-// The mean over some pixels. Random points have 0.123 at 64 frames and 0.068 at 256. Every second or fourth frame: those
-// of a pixel that does not trace in each.
+// The mean over some pixels. Random points have 0.123 at 64 frames and 0.068 at 256. Every second or fourth frame:
+// those of a pixel that does not trace in each.
 TEST_F(BlueNoisePoints, OfAnyRunOfFramesAreEvenlySpreadAtEachPixel) {
     constexpr uint32_t pixels = 8;
     for (const auto& [first, stride] :

@@ -47,8 +47,9 @@ protected:
         gpu::KeptImage table("ggx_table");
         record([&](gpu::Frame& f) { ggxTable(f, table); });
         VkSampler linear = device().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR});
-        return mapOnDevice<DielectricResult>("ggx_dielectric_test.comp", all, {},
-                                             [&](gpu::ComputePass& pass) { pass.read("ggxTable", table.last(), linear); });
+        return mapOnDevice<DielectricResult>("ggx_dielectric_test.comp", all, {}, [&](gpu::ComputePass& pass) {
+            pass.read("ggxTable", table.last(), linear);
+        });
     }
 };
 

@@ -54,8 +54,9 @@ protected:
     }
 
     static std::vector<vec3> lookUp(const Images& images, const std::vector<LightLookup>& lookups) {
-        return mapOnDevice<vec3>("light_mips_test.comp", lookups, NoParams{},
-                                 [&](gpu::ComputePass& pass) { pass.read("light", images.light).read("mips", images.mips); });
+        return mapOnDevice<vec3>("light_mips_test.comp", lookups, NoParams{}, [&](gpu::ComputePass& pass) {
+            pass.read("light", images.light).read("mips", images.mips);
+        });
     }
 
     static vec3 texel(std::span<const std::byte> bytes, size_t index) {

@@ -125,8 +125,8 @@ void expectSpread(const std::vector<glm::dvec3>& directions, const Grid& grid, c
 class SamplingPdf : public ShaderTest {
 protected:
     static std::vector<glm::dvec3> sample(uint32_t kind, const std::vector<vec2>& u, const SamplingParams& params) {
-        const auto samples =
-            mapOnDevice<vec3>("sampling_test.comp", u, params, [&](gpu::ComputePass& pass) { pass.constant("kind", kind); });
+        const auto samples = mapOnDevice<vec3>("sampling_test.comp", u, params,
+                                               [&](gpu::ComputePass& pass) { pass.constant("kind", kind); });
         return {samples.begin(), samples.end()};
     }
 

@@ -10,8 +10,8 @@ namespace reflet {
 
 namespace {
 
-gpu::ComputePass recordPass(gpu::PassList& f, const RecordRayInputs& in, const RecordRayParams& params, const char* name,
-                     const char* shader) {
+gpu::ComputePass recordPass(gpu::PassList& f, const RecordRayInputs& in, const RecordRayParams& params,
+                            const char* name, const char* shader) {
     gpu::ComputePass pass = f.compute(name, shader);
     pass.read("depth", in.g.depth)
         .read("normal", in.g.normal)
