@@ -1,6 +1,7 @@
 // Errors of the C API.
 #include "api/calls.h"
 
+#include "base/message.h"
 #include "gpu/vulkan.h"
 
 namespace reflet::api {
@@ -13,7 +14,7 @@ std::string& lastError() {
 RefletResult handleException() {
     const auto note = [](RefletResult result, const char* text) {
         try {
-            lastError() = text;
+            lastError() = oneLine(text, longestMessage);
         } catch (...) {
             lastError().clear();
         }

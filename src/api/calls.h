@@ -23,12 +23,12 @@ private:
 
 template <class... Args>
 [[noreturn]] void failWith(RefletResult result, fmt::format_string<Args...> format, Args&&... args) {
-    throw Failure(result, fmt::format(format, std::forward<Args>(args)...));
+    throw Failure(result, formatMessage(format, fmt::make_format_args(args...)));
 }
 
 template <class... Args>
 [[noreturn]] void failArgument(fmt::format_string<Args...> format, Args&&... args) {
-    throw Failure(REFLET_ERROR_INVALID_ARGUMENT, fmt::format(format, std::forward<Args>(args)...));
+    throw Failure(REFLET_ERROR_INVALID_ARGUMENT, formatMessage(format, fmt::make_format_args(args...)));
 }
 
 /// Of this thread's last failed call.

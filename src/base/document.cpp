@@ -1,6 +1,7 @@
 // Writes documents.
 #include "base/document.h"
 
+#include "base/visible_text.h"
 #include "base/wrap.h"
 
 #include <algorithm>
@@ -11,10 +12,27 @@ namespace reflet {
 
 namespace {
 
+std::string flat(std::string text) {
+    std::ranges::replace(text, '\n', ' ');
+    return visibleText(text);
+}
+
+// In code a backslash escapes nothing but a bar in a table, and no backquote.
+std::string codeInMarkdown(const std::string& text) {
+    if (text.find('`') != std::string::npos) {
+        return escapeMarkdown(text);
+    }
+    std::string result = "`";
+    for (const char c : flat(text)) {
+        result += c == '|' ? "\\|" : std::string(1, c);
+    }
+    return result + "`";
+}
+
 std::string markdownOf(const Phrase& words) {
     switch (words.style) {
         case Phrase::Style::code:
-            return "`" + words.text + "`";
+            return codeInMarkdown(words.text);
         case Phrase::Style::emphasis:
             return "*" + escapeMarkdown(words.text) + "*";
         default:
@@ -36,7 +54,8 @@ Grid gridOf(const TextTable& table) {
         grid.toTheRight.push_back(column.isNumber);
     }
     for (const TextTable::Row& cells : table.rows) {
-        std::ranges::transform(cells, std::back_inserter(grid.rows.emplace_back()), &Phrase::text);
+        std::ranges::transform(cells, std::back_inserter(grid.rows.emplace_back()),
+                               [](const Phrase& words) { return flat(words.text); });
     }
     return grid;
 }
@@ -112,11 +131,11 @@ std::string written(const std::vector<Section>& document, const Writer& writer) 
 
 std::string escapeMarkdown(std::string_view text) {
     std::string result;
-    for (const char c : text) {
+    for (const char c : flat(std::string(text))) {
         if (std::string_view("\\`*_[]<>|#").find(c) != std::string_view::npos) {
             result += '\\';
         }
-        result += c == '\n' ? ' ' : c;
+        result += c;
     }
     return result;
 }

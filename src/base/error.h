@@ -21,16 +21,26 @@ public:
     using Error::Error;
 };
 
+/// fmt::vformat for messages, whose arguments may come from outside: texts are shown by visibleText, and those that
+/// stand in quotes, '{}', by oneLine.
+std::string formatMessage(fmt::string_view format, fmt::format_args args);
+
+/// The same with arguments as of fmt::format, checked when compiled.
+template <class... Args>
+std::string messageText(fmt::format_string<Args...> format, Args&&... args) {
+    return formatMessage(format, fmt::make_format_args(args...));
+}
+
 /// Throws Error with a formatted message: fail("{}: cannot be read", path).
 template <class... Args>
 [[noreturn]] void fail(fmt::format_string<Args...> format, Args&&... args) {
-    throw Error(fmt::format(format, std::forward<Args>(args)...));
+    throw Error(formatMessage(format, fmt::make_format_args(args...)));
 }
 
 /// Throws UsageError with a formatted message.
 template <class... Args>
 [[noreturn]] void failUsage(fmt::format_string<Args...> format, Args&&... args) {
-    throw UsageError(fmt::format(format, std::forward<Args>(args)...));
+    throw UsageError(formatMessage(format, fmt::make_format_args(args...)));
 }
 
 /// Reports a failed invariant (a bug). Throws std::logic_error, in every build.

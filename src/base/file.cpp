@@ -3,6 +3,7 @@
 #include "base/file.h"
 
 #include "base/error.h"
+#include "base/visible_text.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -50,14 +51,20 @@ private:
     int value_;
 };
 
+// A name from a file may be megabytes.
+std::string shown(const fs::path& path) {
+    constexpr size_t most = 1000;
+    return oneLine(path.native(), most);
+}
+
 [[noreturn]] void failWrite(const fs::path& path, int errorNumber) {
     std::string advice;
     const fs::path folder = path.parent_path();
     std::error_code ignored;
     if (errorNumber == ENOENT && !folder.empty() && !fs::exists(folder, ignored)) {
-        advice = fmt::format(": create the folder '{}' first", folder.string());
+        advice = fmt::format(": create the folder '{}' first", shown(folder));
     }
-    fail("{}: cannot be written: {}{}", path.string(), reason(errorNumber), advice);
+    fail("{}: cannot be written: {}{}", shown(path), reason(errorNumber), advice);
 }
 
 /// A name in the same folder that is unique across processes and threads, also of several machines that share the
@@ -150,7 +157,7 @@ void writeDirectly(const fs::path& path, std::string_view content) {
     // Not blocking: to open a pipe that nothing reads would wait for ever. Writing to it may wait.
     Descriptor file(::open(path.c_str(), O_WRONLY | O_TRUNC | O_CLOEXEC | O_NONBLOCK));
     if (!file.valid() && errno == ENXIO) {
-        fail("{}: cannot be written: it is a socket, or a pipe that nothing reads", path.string());
+        fail("{}: cannot be written: it is a socket, or a pipe that nothing reads", shown(path));
     }
     if (!file.valid() || ::fcntl(file.get(), F_SETFL, O_WRONLY) != 0) {
         failWrite(path, errno);
@@ -167,23 +174,23 @@ std::string readFile(const fs::path& path, uint64_t maxBytes) {
     struct stat status {};
     const auto check = [&](bool done) {
         if (!done) {
-            fail("{}: cannot be read: {}", path.string(), reason(errno));
+            fail("{}: cannot be read: {}", shown(path), reason(errno));
         }
         if (S_ISDIR(status.st_mode)) {
-            fail("{}: cannot be read: {}", path.string(), reason(EISDIR));
+            fail("{}: cannot be read: {}", shown(path), reason(EISDIR));
         }
         if (!S_ISREG(status.st_mode)) {
-            fail("{}: cannot be read: it is a pipe or a device, not a regular file", path.string());
+            fail("{}: cannot be read: it is a pipe or a device, not a regular file", shown(path));
         }
         if (status.st_size > 0 && static_cast<uint64_t>(status.st_size) > maxBytes) {
-            fail("{}: cannot be read: it has {} bytes, more than the limit of {} MiB", path.string(), status.st_size,
+            fail("{}: cannot be read: it has {} bytes, more than the limit of {} MiB", shown(path), status.st_size,
                  maxBytes >> 20U);
         }
     };
     check(::stat(path.c_str(), &status) == 0);  // before opening it: to open a device can have effects
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
     if (!file.valid()) {
-        fail("{}: cannot be read: {}", path.string(), reason(errno));
+        fail("{}: cannot be read: {}", shown(path), reason(errno));
     }
     check(::fstat(file.get(), &status) == 0);  // it may be another one by now
     std::string content;
@@ -192,7 +199,7 @@ std::string readFile(const fs::path& path, uint64_t maxBytes) {
     for (;;) {
         const ssize_t count = ::read(file.get(), block.data(), block.size());
         if (count < 0 && errno != EINTR) {
-            fail("{}: cannot be read: {}", path.string(), reason(errno));
+            fail("{}: cannot be read: {}", shown(path), reason(errno));
         }
         if (count == 0) {
             return content;
@@ -200,7 +207,7 @@ std::string readFile(const fs::path& path, uint64_t maxBytes) {
         if (count > 0) {
             content.append(block, 0, static_cast<size_t>(count));
             if (content.size() > maxBytes) {  // it grows, or is one of /proc, which have size 0
-                fail("{}: cannot be read: it has more than {} MiB", path.string(), maxBytes >> 20U);
+                fail("{}: cannot be read: it has more than {} MiB", shown(path), maxBytes >> 20U);
             }
         }
     }
@@ -225,7 +232,7 @@ AtomicFile::AtomicFile(const fs::path& target, Naming naming) : name_(target), t
         failWrite(target, error.value());
     }
     if (fs::is_directory(status) || !target.has_filename()) {
-        fail("{}: cannot be written: it is a folder; name a file in it", target.string());
+        fail("{}: cannot be written: it is a folder; name a file in it", shown(target));
     }
     direct_ = fs::exists(status) && !fs::is_regular_file(status);
     if (direct_) {

@@ -40,7 +40,7 @@ struct Encoded {
     if (reason != nullptr && std::string_view(reason) == "outofmem") {
         throw std::bad_alloc();
     }
-    fail("{}: cannot be read as an image: {}", path.string(), oneLine(reason != nullptr ? reason : "unknown format"));
+    fail("{}: cannot be read as an image: {}", path.string(), reason != nullptr ? reason : "unknown format");
 }
 
 /// stb reads more formats than these, by readers that crash or never end on broken files.

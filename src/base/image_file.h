@@ -51,6 +51,11 @@ void writeExr(const std::filesystem::path& path, std::span<const ImageLayer> lay
 /// channels become float. Throws Error.
 std::vector<ImageLayer> readExr(const std::filesystem::path& path);
 
+/// Whether a file has its end, by its suffix: PNG's last chunk, EXR's last line; others must not be empty. False for
+/// what is no regular file or cannot be read. Reads little of the file: what a copy or a full disk left unfinished is
+/// told from a finished file, not every damage.
+bool isWholeImage(const std::filesystem::path& path);
+
 /// Reads Radiance .hdr as "R" "G" "B". Throws Error.
 FloatImage readHdr(const std::filesystem::path& path);
 

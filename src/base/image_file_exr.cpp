@@ -5,6 +5,7 @@
 #include "base/exr_check.h"
 #include "base/file.h"
 #include "base/limits.h"
+#include "base/png_check.h"
 
 #include <ImathBox.h>
 #include <ImfChannelList.h>
@@ -237,7 +238,43 @@ std::vector<ImageLayer> decodeExr(std::string_view content) {
     return layers;
 }
 
+// The last line is the last of the file, as all that writeExr writes are in increasing order.
+bool exrHasItsEnd(const std::filesystem::path& path) {
+    configureOpenExr();
+    Imf::InputFile file(path.c_str(), 0);
+    const Imath::Box2i window = file.header().dataWindow();
+    const Imf::ChannelList& channels = file.header().channels();
+    if (!file.isComplete() || channels.begin() == channels.end() || window.max.x - window.min.x >= largestSide) {
+        return false;
+    }
+    std::vector<float> line(static_cast<size_t>(window.max.x - window.min.x) + 1);
+    char* const base = reinterpret_cast<char*>(line.data() - window.min.x);
+    Imf::FrameBuffer frameBuffer;
+    frameBuffer.insert(channels.begin().name(), Imf::Slice(Imf::FLOAT, base, sizeof(float), 0));
+    file.setFrameBuffer(frameBuffer);
+    file.readPixels(window.max.y);
+    return true;
+}
+
 }  // namespace
+
+bool isWholeImage(const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) {
+        return false;
+    }
+    const uint64_t size = std::filesystem::file_size(path, ignored);
+    try {
+        if (path.extension() == ".exr") {
+            return exrHasItsEnd(path);
+        }
+        return path.extension() == ".png" ? pngHasItsEnd(path, size) : size > 0;
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception&) {  // not readable: writing a new one says why, if that cannot be done either
+        return false;
+    }
+}
 
 void writeExr(const std::filesystem::path& path, std::span<const ImageLayer> layers) {
     checkLayers(layers);

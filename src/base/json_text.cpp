@@ -2,6 +2,7 @@
 #include "base/json_text.h"
 
 #include "base/error.h"
+#include "base/visible_text.h"
 
 #include <nlohmann/json.hpp>
 
@@ -47,6 +48,29 @@ void refuseExcess(std::string_view text, const JsonLimits& limits) {
     }
 }
 
+// Valid JSON in UTF-8 with hidden characters beyond ASCII, which are in texts alone, as JSON's own escapes: the
+// serializer knows those of ASCII, and terminals obey some of the others.
+std::string withoutHidden(std::string text) {
+    if (std::ranges::all_of(text, [](unsigned char c) { return c < 0x7FU; })) {
+        return text;
+    }
+    std::string result;
+    for (std::string_view rest = text; !rest.empty();) {
+        const Character first = firstCharacter(rest);
+        const size_t length = std::max<size_t>(first.length, 1);
+        const auto code = static_cast<uint32_t>(first.code);
+        if (code < 0x7FU || !isHidden(first.code)) {
+            result += rest.substr(0, length);
+        } else if (code < 0x10000U) {
+            result += fmt::format("\\u{:04x}", code);
+        } else {
+            result += fmt::format("\\u{:04x}\\u{:04x}", 0xD7C0U + (code >> 10U), 0xDC00U + (code & 0x3FFU));
+        }
+        rest.remove_prefix(length);
+    }
+    return result;
+}
+
 }  // namespace
 
 uint64_t jsonValues(std::string_view text) {
@@ -83,11 +107,11 @@ nlohmann::ordered_json parseOrderedJson(std::string_view text) {
 }
 
 std::string jsonText(const nlohmann::json& json, int indent) {
-    return json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+    return withoutHidden(json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 std::string jsonText(const nlohmann::ordered_json& json, int indent) {
-    return json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
+    return withoutHidden(json.dump(indent, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 }  // namespace reflet

@@ -2,27 +2,9 @@
 #include "base/message.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdio>
 
 namespace reflet {
-
-namespace {
-
-constexpr size_t longest = 8000;  // a list of all settings has 4000
-
-std::string withoutControls(std::string_view text, char instead) {
-    std::string result(text);
-    std::ranges::replace_if(
-        result, [](unsigned char c) { return std::iscntrl(c) != 0; }, instead);
-    return result;
-}
-
-}  // namespace
-
-std::string oneLine(std::string_view text, size_t most) {
-    return withoutControls(text.substr(0, most), '?') + (text.size() > most ? "..." : "");
-}
 
 std::string listed(std::span<const std::string> names) {
     constexpr size_t most = 20;
@@ -43,8 +25,9 @@ void printMessage(std::string_view kind, std::string_view message) noexcept {
     try {
         std::string line = "reflet: ";
         line.append(kind).append(kind.empty() ? "" : " ");
-        line += withoutControls(message.substr(0, longest), ' ');
-        line += message.size() > longest ? "...\n" : "\n";
+        std::string text(message);
+        std::ranges::replace(text, '\n', ' ');  // of a compiler's or a library's message
+        line += oneLine(text, longestMessage) + "\n";
         printRaw(line);
     } catch (...) {  // no memory for the line
         printRaw("reflet: not enough memory\n");

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <string_view>
 
 namespace reflet {
@@ -32,11 +33,23 @@ std::string pngProblem(std::span<const uint8_t> bytes) {
             return "a chunk is truncated";
         }
         if (type == "IEND") {
-            break;
+            return "";
         }
         rest = rest.subspan(std::min(length + checksum, rest.size()));
     }
-    return "";
+    return "its end is missing";
+}
+
+bool pngHasItsEnd(const std::filesystem::path& file, uint64_t size) {
+    constexpr std::string_view end("\0\0\0\0IEND\xAE\x42\x60\x82", 12);
+    if (size < magic.size() + end.size()) {
+        return false;
+    }
+    std::ifstream stream(file, std::ios::binary);
+    std::array<char, end.size()> last{};
+    stream.seekg(static_cast<std::streamoff>(size - end.size()));
+    stream.read(last.data(), last.size());
+    return stream.good() && std::string_view(last.data(), last.size()) == end;
 }
 
 }  // namespace reflet

@@ -2,6 +2,7 @@
 #include "base/progress.h"
 
 #include "base/message.h"
+#include "base/visible_text.h"
 
 #include <fmt/format.h>
 
@@ -27,7 +28,7 @@ std::string durationText(double seconds) {
 
 void tellWritten(const std::string& what) {
     if (isatty(STDERR_FILENO) != 0) {
-        printRaw(fmt::format("written: {}\n", what));
+        printRaw(fmt::format("written: {}\n", visibleText(what)));
     }
 }
 
@@ -47,7 +48,7 @@ void WaitingNote::begin(std::string text) {
             if (stop.stop_requested()) {
                 return;
             }
-            printRaw(fmt::format("\r\033[K{}", text));
+            printRaw(fmt::format("\r\033[K{}", visibleText(text)));
             stopped.wait(lock, stop, [] { return false; });
             printRaw("\r\033[K");
         });
@@ -79,8 +80,8 @@ void Progress::set(uint64_t done, std::string_view note) {
     shown_ = true;
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const double left = elapsed / static_cast<double>(done_) * static_cast<double>(total_ - done_);
-    printRaw(fmt::format("\r\033[K{} {} of {}, {} left{}{}", what_, done_, total_, durationText(left),
-                         note.empty() ? "" : ", ", note));
+    printRaw(fmt::format("\r\033[K{} {} of {}, {} left{}{}", visibleText(what_), done_, total_, durationText(left),
+                         note.empty() ? "" : ", ", visibleText(note)));
 }
 
 }  // namespace reflet

@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/json_text.h"
 #include "base/progress.h"
+#include "base/visible_text.h"
 #include "cli/compare.h"
 #include "compare/heat_map.h"
 #include "job/scene_options.h"
@@ -101,7 +102,7 @@ void printTable(const FrameErrors& errors, std::span<const Metric> columns) {
     }
     fmt::print("\n");
     const auto row = [&](const std::string& name, const auto& textOf) {
-        fmt::print("{:<10}", name);
+        fmt::print("{:<10}", visibleText(name));
         for (const Metric& metric : columns) {
             fmt::print(" {:>12}", textOf(metric));
         }

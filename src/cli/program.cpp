@@ -107,7 +107,7 @@ int parseAndRun(int argc, char** argv, std::span<const AddCommand> commands) {
     } catch (const CLI::ParseError& error) {
         return reportError(fmt::format("{} (see reflet --help)", error.what()), exitUsage);
     }
-    if (std::fflush(stdout) != 0) {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {  // whoever flushed before has not looked
         return reportError("cannot write to standard output", exitFailed);
     }
     return 0;

@@ -2,6 +2,7 @@
 #include "device/physical_device.h"
 
 #include "base/error.h"
+#include "base/visible_text.h"
 
 #include <algorithm>
 #include <array>
@@ -173,6 +174,36 @@ std::optional<size_t> findSelected(std::span<const DeviceDescription> all, const
     return found == all.end() ? std::nullopt : std::optional<size_t>(found - all.begin());
 }
 
+VkBool32 noteFirst(VkDebugUtilsMessageSeverityFlagBitsEXT /*severity*/, VkDebugUtilsMessageTypeFlagsEXT /*types*/,
+                   const VkDebugUtilsMessengerCallbackDataEXT* message, void* first) {
+    auto& text = *static_cast<std::string*>(first);
+    text = text.empty() ? message->pMessage : text;
+    return VK_FALSE;
+}
+
+// The loader's own reason for an instance that it does not make: its result for a manifest that is no JSON is "out of
+// host memory". Empty: it gives none.
+std::string loaderReason(VkInstanceCreateInfo info, std::vector<const char*> extensions) {
+    std::string reason;
+    VkDebugUtilsMessengerCreateInfoEXT messenger{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
+    messenger.pNext = info.pNext;
+    messenger.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    messenger.messageType =
+        VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
+    messenger.pfnUserCallback = noteFirst;
+    messenger.pUserData = &reason;
+    extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    info.pNext = &messenger;
+    info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
+    VkInstance instance = VK_NULL_HANDLE;
+    if (vkCreateInstance(&info, nullptr, &instance) == VK_SUCCESS) {
+        volkLoadInstanceOnly(instance);
+        vkDestroyInstance(instance, nullptr);
+    }
+    return reason;
+}
+
 }  // namespace
 
 RequiredFeatures requiredFeatures() {
@@ -228,6 +259,12 @@ VkInstance makeInstance(const char* layer, std::span<const char* const> extensio
         fail(
             "no Vulkan driver: install one (Debian: mesa-vulkan-drivers; it renders on the CPU where there is no GPU)");
     }
+    if (const std::string reason = result < 0 ? loaderReason(info, enabled) : ""; !reason.empty()) {
+        fail(
+            "creating a Vulkan instance failed: {}; its manifests are those of the environment's VK_DRIVER_FILES, "
+            "VK_ICD_FILENAMES and VK_LAYER_PATH, and of the folders vulkan in /usr/share and /etc",
+            oneLine(reason, 300));
+    }
     vkCheck(result, "creating a Vulkan instance");
     volkLoadInstanceOnly(instance);
     return instance;
@@ -268,12 +305,7 @@ DeviceDescription describe(VkPhysicalDevice device) {
 }
 
 std::vector<DeviceDescription> listDevices() {
-    VkInstance instance = VK_NULL_HANDLE;
-    try {
-        instance = makeInstance(nullptr);
-    } catch (const Error&) {
-        return {};
-    }
+    VkInstance instance = makeInstance(nullptr);
     std::vector<DeviceDescription> list;
     try {
         for (const VkPhysicalDevice device : physicalDevices(instance)) {

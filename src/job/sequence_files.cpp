@@ -2,6 +2,7 @@
 #include "job/sequence_files.h"
 
 #include "base/error.h"
+#include "base/image_file.h"
 #include "job/sequence_record.h"
 #include "job/sequence_views.h"
 #include "job/share.h"
@@ -52,8 +53,9 @@ std::vector<fs::path> SequenceFiles::missing(uint32_t frame) const {
     std::vector<fs::path> files;
     for (const FrameNames& names : names_) {
         fs::path file = names.file(firstFrame_ + frame);
-        // A folder of that name is none: writing the frame says that it is in the way.
-        if (std::error_code ignored; !fs::is_regular_file(file, ignored)) {
+        // A folder of that name is no frame: writing it says that it is in the way. A file without its end, of a copy
+        // or of a machine that lost power, is made anew.
+        if (!isWholeImage(file)) {
             files.push_back(std::move(file));
         }
     }

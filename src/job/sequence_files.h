@@ -23,7 +23,7 @@ public:
 
     [[nodiscard]] const std::vector<FrameNames>& names() const { return names_; }
 
-    /// Those of a frame, counted from 0, that do not exist at this moment.
+    /// Those of a frame, counted from 0, that do not exist at this moment or have no end.
     [[nodiscard]] std::vector<std::filesystem::path> missing(uint32_t frame) const;
     [[nodiscard]] bool isMissing(uint32_t frame) const { return !missing(frame).empty(); }
 

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/visible_text.h"
 #include "cli/last_resort.h"
 
 #define GLFW_INCLUDE_NONE
@@ -109,7 +110,7 @@ Window::Window(const std::string& title, uvec2 size) {
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
     size = withinScreen(size);
-    window_ = glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), title.c_str(), nullptr, nullptr);
+    window_ = glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), visibleText(title).c_str(), nullptr, nullptr);
     if (window_ == nullptr) {
         glfwTerminate();
         fail("no window can be opened ({}); `reflet render` needs none", lastGlfwError());
@@ -243,7 +244,7 @@ void Window::hide() {
 }
 
 void Window::setTitle(const std::string& title) {
-    glfwSetWindowTitle(window_, title.c_str());
+    glfwSetWindowTitle(window_, visibleText(title).c_str());
 }
 
 void Window::copyText(const std::string& text) {

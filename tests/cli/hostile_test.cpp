@@ -132,6 +132,39 @@ TEST_F(Hostile, AListOfNamesFromAFileIsShort) {
     EXPECT_TRUE(refused(compared, failed, {"channel0, ", "and 480 more"}));
 }
 
+// A triangle, and more.
+std::string triangleAnd(const std::string& more) {
+    return R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}], "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3,
+        "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "scenes": [{"nodes": [0]}], )" +
+           more + "}";
+}
+
+TEST_F(Hostile, NamesOfFilesDoNotCommandTheTerminal) {
+    write("c1.gltf", triangleAnd(R"("nodes": [{"mesh": 0, "camera": 0, "name": "\u009b31m\u202e\u2028"}], "cameras": [{
+        "type": "perspective", "perspective": {"yfov": 1, "znear": 1}, "name": "\u009b31m\u202e\u2028"}])"));
+    const Outcome outcome = run({"reference", "c1.gltf", "--camera", "nosuch", "-o", "a.exr"});
+    EXPECT_TRUE(refused(outcome, usage, {"'\\x9b31m\\u202e\\u2028'"}));
+}
+
+TEST_F(Hostile, WarningsOfAFileAreAtMostTwentyLines) {
+    std::string names;
+    for (int i = 0; i < 100; ++i) {
+        names += (i == 0 ? "\"E" : ", \"E") + std::to_string(i) + "\"";
+    }
+    write("many.gltf", triangleAnd("\"nodes\": [{\"mesh\": 0}], \"extensionsUsed\": [" + names + "]"));
+    const Outcome outcome = run({"reference", "many.gltf", "--camera", "nosuch", "-o", "a.exr"});
+    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 21) << outcome.err;  // and the error
+    EXPECT_NE(outcome.err.find("more warnings of other kinds"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Hostile, ADriversManifestThatIsNoJsonIsNamed) {
+    write("bad.json", "{");
+    EXPECT_TRUE(
+        refused(shell("VK_DRIVER_FILES=bad.json VK_ICD_FILENAMES=bad.json", "list devices"), failed, {"bad.json"}));
+}
+
 TEST_F(Hostile, ComparingTakesNoMoreMemoryThanTheLimit) {
     writePng(path("a.png"), {1000, 100, 3, std::vector<uint8_t>(300000, 10)});
     EXPECT_TRUE(refused(run({"compare", "a.png", "a.png"}, {{"REFLET_MEMORY_LIMIT", "0.01"}}), failed,
@@ -163,6 +196,12 @@ TEST_F(Hostile, AClosedStandardOutputIsAFailureNotASignal) {
     const Outcome closed = runOther("sh", {"-c", "{ \"$0\" list settings; echo $? >&2; } | true", REFLET_PROGRAM});
     EXPECT_TRUE(closed.err.ends_with("\n1\n") || closed.err == "0\n") << closed.err;  // 0: all fitted into the pipe
     EXPECT_EQ(shell("", "list settings >/dev/full").status, failed);
+}
+
+TEST_F(Hostile, AFullStandardOutputIsAFailure) {
+    for (const char* rest : {"--version >/dev/full", "--help >/dev/full", "list scenes >/dev/full"}) {
+        EXPECT_TRUE(refused(shell("", rest), failed, {"cannot write to standard output"})) << rest;
+    }
 }
 
 TEST_F(Hostile, AFileSizeLimitIsAFailureAndLeavesNothing) {

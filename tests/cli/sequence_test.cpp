@@ -144,12 +144,14 @@ TEST_F(Sequence, AnInterruptEndsItWithWholeFramesAndSaysSo) {
 TEST_F(Sequence, RendersOnlyWhatIsMissingAndLeavesTheRestAlone) {
     const Bytes whole = orbitIn("a");
     fs::remove(path("a/a_002.png"));
-    write("a/a_003.png", "mine");
-    write("a/a_005.png", "mine");
+    write("a/a_003.png", whole.at("a_002.png"));  // a picture of the user's own
+    write("a/a_004.png", "");                     // what a full disk or a lost power leaves
+    write("a/a_005.png", whole.at("a_005.png").substr(0, 60));
     Bytes after = orbitIn("a");
-    EXPECT_EQ(after.at("a_002.png"), whole.at("a_002.png"));
-    EXPECT_EQ(after.at("a_003.png"), "mine");
-    EXPECT_EQ(after.at("a_005.png"), "mine");
+    EXPECT_EQ(after.at("a_003.png"), whole.at("a_002.png"));
+    for (const char* made : {"a_002.png", "a_004.png", "a_005.png"}) {
+        EXPECT_EQ(after.at(made), whole.at(made)) << made;
+    }
     EXPECT_EQ(orbitIn("a", {"--overwrite"}), whole);
 }
 

@@ -79,7 +79,7 @@ TEST_F(WrongUse, AnAssignmentWithoutEqualsSignOrNameIsRefused) {
 }
 
 TEST_F(WrongUse, AMessageIsOneLineWhateverNamesAreInIt) {
-    EXPECT_TRUE(refused(set("two\nlines=3"), usage, {"'two?lines'"}));
+    EXPECT_TRUE(refused(set("two\nlines=3"), usage, {"'two\\nlines'"}));
 }
 
 TEST_F(WrongUse, AnUnknownPresetIsNamedWithTheNearest) {

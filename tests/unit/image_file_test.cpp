@@ -371,5 +371,22 @@ TEST_F(ExrFile, WithAnyByteOfItsHeaderDamagedIsReadOrIsAnError) {
     }
 }
 
+TEST_F(Files, AnImageIsWholeOnlyWithItsEnd) {
+    const fs::path png = at("a.png");
+    const fs::path exr = at("a.exr");
+    EXPECT_FALSE(isWholeImage(png));
+    writePng(png, {40, 40, 3, std::vector<uint8_t>(4800, 10)});
+    writeExr(exr, std::vector<ImageLayer>{{"", {40, 40, {"R", "G"}, std::vector<float>(3200, 0.5F)}}});
+    for (const std::filesystem::path& file : {png, exr}) {
+        EXPECT_TRUE(isWholeImage(file)) << file;
+        for (uint64_t size = std::filesystem::file_size(file); size > 0;) {
+            size = size > 40 ? size - 40 : 0;
+            std::filesystem::resize_file(file, size);
+            EXPECT_FALSE(isWholeImage(file)) << file << " of " << size << " bytes";
+        }
+    }
+    EXPECT_FALSE(isWholeImage(at("")));
+}
+
 }  // namespace
 }  // namespace reflet::image_file_test

@@ -131,8 +131,7 @@ TEST(Limits, AJsonFileThatIsTooLargeIsRefusedBeforeItIsRead) {
 }
 
 TEST(Limits, MessagesQuoteOnlyTheBeginningOfLongTexts) {
-    EXPECT_EQ(oneLine("a\nb\x1B"), "a?b?");
-    EXPECT_EQ(oneLine(std::string(300, 'x')), std::string(200, 'x') + "...");
+    EXPECT_EQ(oneLine(std::string(300, 'x')), std::string(80, 'x') + "...");
     const std::string name(1'000'000, 'k');
     const fs::path file = emptyFolder("long_key") / "a.json";
     for (const std::string& text : {"{\"" + name + "\": 1}", "{\"" + name + "\": 1, \"" + name + "\": 2}", "[\"" + name,
@@ -151,7 +150,7 @@ TEST(Limits, MessagesQuoteOnlyTheBeginningOfLongTexts) {
 TEST(Limits, MessagesListOnlyTheFirstNames) {
     EXPECT_EQ(listed({}), "none");
     std::vector<std::string> names{"a", "b\n", std::string(100, 'c')};
-    EXPECT_EQ(listed(names), "a, b?, " + std::string(60, 'c') + "...");
+    EXPECT_EQ(listed(names), "a, b\\n, " + std::string(60, 'c') + "...");
     names.assign(20, "x");
     EXPECT_TRUE(listed(names).ends_with(", x"));
     names.assign(1000, "x");

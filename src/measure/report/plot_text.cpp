@@ -1,7 +1,7 @@
 // Estimates text widths by DejaVu Sans, which is wider than the fonts that pages usually get.
 #include "measure/report/plot_text.h"
 
-#include "measure/report/xml_text.h"
+#include "base/visible_text.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -25,7 +25,7 @@ float characterWidth(std::string_view character) {
 
 /// Removes and returns the first character.
 std::string_view takeCharacter(std::string_view& text) {
-    const std::string_view character = text.substr(0, std::max<size_t>(leadingCharacter(text), 1));
+    const std::string_view character = text.substr(0, std::max<size_t>(firstCharacter(text).length, 1));
     text.remove_prefix(character.size());
     return character;
 }

@@ -6,11 +6,8 @@
 
 namespace reflet {
 
-/// The text with & < > " ' escaped, for content and quoted attributes. Control characters become spaces;
-/// bytes that are not UTF-8 become U+FFFD.
+/// The text with & < > " ' escaped, for content and quoted attributes. Line breaks and tabs become spaces, other hidden
+/// characters and bytes that are not UTF-8 are shown by visibleText.
 std::string xmlText(std::string_view text);
-
-/// Length in bytes of the UTF-8 character at the start of the text; 0 if there is no valid one.
-size_t leadingCharacter(std::string_view text);
 
 }  // namespace reflet

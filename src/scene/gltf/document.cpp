@@ -115,10 +115,39 @@ void restoreIndices(tinygltf::Model& model, const json& document, const GltfRepo
     }
 }
 
+void noteMaterials(const json& primitive, std::set<uint64_t>& used) {
+    if (const auto material = primitive.find("material"); material != primitive.end()) {
+        used.insert(material->get<uint64_t>());
+    }
+    const auto pointer = json::json_pointer("/extensions/KHR_materials_variants/mappings");
+    if (primitive.contains(pointer)) {
+        for (const json& mapping : primitive.at(pointer)) {
+            used.insert(mapping.at("material").get<uint64_t>());
+        }
+    }
+}
+
+/// The document's materials; those that no mesh uses are empty objects: a file may have many of them.
+json usedMaterials(const json& document) {
+    std::set<uint64_t> used;
+    for (const json& mesh : arrayOf(document, "meshes")) {
+        for (const json& primitive : mesh.at("primitives")) {
+            noteMaterials(primitive, used);
+        }
+    }
+    json materials = json::array();
+    for (const json& material : arrayOf(document, "materials")) {
+        materials.push_back(used.contains(materials.size()) ? material : json::object());
+    }
+    return materials;
+}
+
 tinygltf::Model parseStructure(const json& document, const GltfReport& report) {
     json structure = json::object();
     for (const auto& [name, value] : document.items()) {
-        if (name != "buffers" && name != "images") {
+        if (name == "materials") {
+            structure[name] = usedMaterials(document);
+        } else if (name != "buffers" && name != "images") {
             structure[name] = value;
         }
     }

@@ -67,6 +67,16 @@ TextureImage decodeGltfImage(const GltfDocument& document, size_t index, GltfRep
     return image;
 }
 
+GltfImagePlace placeOfGltfImage(const GltfDocument& document, size_t index, const GltfReport& report) {
+    const tinygltf::Image& source = document.model.images[index];
+    if (source.bufferView < 0) {
+        return {.uri = source.uri};
+    }
+    report.use("bufferViews", static_cast<size_t>(source.bufferView));
+    const auto& view = document.model.bufferViews[static_cast<size_t>(source.bufferView)];
+    return {.uri = {}, .buffer = view.buffer, .offset = view.byteOffset, .length = view.byteLength};
+}
+
 bool gltfImageIsBasis(const GltfDocument& document, size_t index, GltfReport& report) {
     const tinygltf::Image& source = document.model.images[index];
     if (source.bufferView >= 0) {

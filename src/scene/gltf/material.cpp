@@ -241,8 +241,13 @@ int32_t GltfMaterials::useImage(int image) {
     const auto index = static_cast<size_t>(image);
     report_.use("images", index);
     report_.tolerateUntilUsed("images", index, [&] {
-        scene_.images.push_back(decodeGltfImage(document_, index, report_));
-        images_[image] = static_cast<int32_t>(scene_.images.size() - 1);
+        const GltfImagePlace place = placeOfGltfImage(document_, index, report_);
+        const auto known = places_.find(place);
+        if (known == places_.end()) {
+            scene_.images.push_back(decodeGltfImage(document_, index, report_));
+        }
+        images_[image] = known != places_.end() ? known->second : static_cast<int32_t>(scene_.images.size() - 1);
+        places_[place] = images_[image];
     });
     report_.use("images", index);
     return images_[image];

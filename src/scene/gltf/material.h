@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/gltf/document.h"
+#include "scene/gltf/image.h"
 #include "scene/scene.h"
 
 #include <map>
@@ -38,6 +39,7 @@ private:
     GltfReport& report_;
     std::map<int, uint32_t> materials_;  ///< from the file's index to the scene's
     std::map<int, int32_t> images_;
+    std::map<GltfImagePlace, int32_t> places_;  ///< of decoded images, to the scene's index
     std::map<int, int32_t> samplers_;
 };
 

@@ -1,7 +1,7 @@
 // Problems of glTF files as errors or warnings, and a limit on the memory of a scene.
 #include "scene/gltf/report.h"
 
-#include "base/message.h"
+#include "base/visible_text.h"
 
 #include <algorithm>
 
@@ -9,14 +9,17 @@ namespace reflet {
 
 namespace {
 constexpr uint64_t maxProblems = 100000;  // each takes microseconds
+constexpr size_t maxWarnings = 19;        // lines for one file, and one that counts the rest
+constexpr size_t longestPart = 200;
+constexpr size_t longestText = 400;
 }  // namespace
 
 std::string GltfReport::place(std::string_view part) const {
-    return oneLine(file_) + ": " + (part.empty() ? "" : oneLine(part) + ": ");
+    return visibleText(file_) + ": " + (part.empty() ? "" : oneLine(part, longestPart) + ": ");
 }
 
 std::string GltfReport::line(std::string_view part, std::string_view what) const {
-    return place(part) + oneLine(what);
+    return place(part) + oneLine(what, longestText);
 }
 
 bool GltfReport::countKind(const std::string& kind) {
@@ -36,7 +39,8 @@ void GltfReport::forgive(const GltfProblem::Detail& problem, std::string_view co
         firstProblem_ = problem.part.empty() ? problem.text : problem.part + ": " + problem.text;
     }
     if (countKind(fmt::format("{}: {}", consequence, problem.kind))) {
-        warnings_.push_back({fmt::format("{}{}: {}", place(problem.part), consequence, oneLine(problem.text)), 1});
+        warnings_.push_back(
+            {fmt::format("{}{}: {}", place(problem.part), consequence, oneLine(problem.text, longestText)), 1});
     }
 }
 
@@ -54,11 +58,13 @@ void GltfReport::printWarnings() {
         }
     }
     invalid_.clear();
-    for (const Warning& warning : warnings_) {
+    for (size_t i = 0; warn_ && i < std::min(warnings_.size(), maxWarnings); ++i) {
+        const Warning& warning = warnings_[i];
         const std::string more = warning.count > 1 ? fmt::format(" (and {} more)", warning.count - 1) : "";
-        if (warn_) {
-            warn_(warning.text + more);
-        }
+        warn_(warning.text + more);
+    }
+    if (warn_ && warnings_.size() > maxWarnings) {
+        warn_(fmt::format("{}{} more warnings of other kinds", place(""), warnings_.size() - maxWarnings));
     }
     warnings_.clear();
     kinds_.clear();

@@ -40,19 +40,19 @@ public:
     template <class... Args>
     [[noreturn]] void fail(std::string_view part, fmt::format_string<Args...> format, Args&&... args) const {
         const fmt::string_view kind = format;
-        const std::string text = fmt::format(format, std::forward<Args>(args)...);
+        const std::string text = messageText(format, std::forward<Args>(args)...);
         throw GltfProblem(line(part, text), {std::string(part), text, {kind.data(), kind.size()}});
     }
 
     /// Throws an Error that nothing tolerates: the file takes too much memory or time.
     template <class... Args>
     [[noreturn]] void refuse(std::string_view part, fmt::format_string<Args...> format, Args&&... args) const {
-        throw Error(line(part, fmt::format(format, std::forward<Args>(args)...)));
+        throw Error(line(part, messageText(format, std::forward<Args>(args)...)));
     }
 
     template <class... Args>
     [[noreturn]] void failUsage(std::string_view part, fmt::format_string<Args...> format, Args&&... args) const {
-        throw UsageError(line(part, fmt::format(format, std::forward<Args>(args)...)));
+        throw UsageError(line(part, messageText(format, std::forward<Args>(args)...)));
     }
 
     /// Calls `read`, which must leave no half-read part behind if it throws. On a GltfProblem: throws it if strict,
@@ -101,7 +101,7 @@ public:
     template <class... Args>
     void warn(const std::string& kind, std::string_view part, fmt::format_string<Args...> format, Args&&... args) {
         if (countKind(kind)) {
-            warnings_.push_back({line(part, fmt::format(format, std::forward<Args>(args)...)), 1});
+            warnings_.push_back({line(part, messageText(format, std::forward<Args>(args)...)), 1});
         }
     }
 
