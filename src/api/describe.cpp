@@ -179,6 +179,8 @@ std::string describe(const RefletView_T& view) {
     lines.push_back(fmt::format("effects so far: {}; {:.1f} MB of device memory",
                                 ran.empty() ? std::string("none") : fmt::format("{}", fmt::join(ran, ", ")),
                                 static_cast<double>(view.owner.gpu->memory().read(view.memory)) * 1e-6));
+    lines.push_back(fmt::format("light of the host: {} probes, {} planar views, {} image for rays without a hit",
+                                frame.probes, frame.planarViews, frame.hasFallback ? "an" : "no"));
     const Lines wrong = contradictions(d, v);
     lines.push_back(fmt::format("contradictions: {}",
                                 wrong.empty() ? std::string("none found") : fmt::format("{}", fmt::join(wrong, "; "))));

@@ -41,8 +41,8 @@ public:
     HostImages(const HostImages&) = delete;
     HostImages& operator=(const HostImages&) = delete;
 
-    /// None for an absent one. size: of what is read of it; 0: all. layers: that its view has.
-    gpu::Image add(const RefletImage& image, uvec2 size, uint32_t layers = 1);
+    /// None for an absent one. size: of what is read of it; 0: all. layers, levels: that its view has.
+    gpu::Image add(const RefletImage& image, uvec2 size, uint32_t layers = 1, uint32_t levels = 1);
     /// Records the barriers of all images added so far.
     void acquire();
 
@@ -50,6 +50,7 @@ private:
     struct Given {
         RefletImage image;
         uint32_t layers;
+        uint32_t levels;
     };
 
     RefletView_T& view_;
@@ -73,6 +74,8 @@ struct SunInputs {
     bool contact = false;
 };
 
+struct SourceInputs;
+
 struct EnvironmentInputs {
     gpu::Image image;
     VkImageView from = VK_NULL_HANDLE;
@@ -90,11 +93,18 @@ gpu::Image recordSunShadow(RefletView_T& view, Frame& frame, const Settings& set
 /// light: see ContactParams.
 gpu::Image recordContactShadows(RefletView_T& view, Frame& frame, const Settings& settings, const vec4& light);
 gpu::Image recordAmbientOcclusion(RefletView_T& view, Frame& frame, const Settings& settings);
-LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image light,
-                     const EnvironmentInputs& environment);
+/// What rays of a lobe find, as the host gives it.
+struct LobeInputsOfHost {
+    gpu::Image light;
+    const EnvironmentInputs& environment;
+    const SourceInputs& sources;
+};
+
+LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe,
+                     const LobeInputsOfHost& in);
 /// The first half of recordLobe: rays, the screen, and what is left for the host, in frame.pending.
-MissedRays recordMissedRays(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image light,
-                            const EnvironmentInputs& environment);
+MissedRays recordMissedRays(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe,
+                            const LobeInputsOfHost& in);
 /// The second half, once the host has answered them.
 LobeLight recordAnswers(RefletView_T& view, Frame& frame);
 LobeLight recordDenoise(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image noisy);

@@ -2,6 +2,7 @@
 #include "api/calls.h"
 #include "api/camera.h"
 #include "api/frame.h"
+#include "api/light_sources.h"
 #include "api/live.h"
 
 #include <algorithm>
@@ -105,19 +106,56 @@ void prepareSun(RefletView_T& view, Frame& frame, const Settings& settings, cons
     recordSunShadow(view, frame, settings, sun);
 }
 
+// Probes, planar views and images as info.light will have them.
+SourceInputs preparedSources(const RefletView_T& view, const RefletPrepareInfo& info, StandIns& standIns) {
+    SourceInputs in;
+    if (info.light == nullptr) {
+        return in;
+    }
+    const RefletIndirectLight& light = *info.light;
+    const auto given = [&](const RefletImage& image) { return image.image != VK_NULL_HANDLE; };
+    in.specular = given(light.specularFallback) ? standIns.make(view.renderSize) : gpu::Image{};
+    in.irradiance = given(light.irradiance) ? standIns.make(view.renderSize) : gpu::Image{};
+    in.planarAfterScreen = light.planarViewsAfterScreen != 0;
+    in.planar.resize(light.planarViewCount);
+    for (lighting::HostPlanarView& planar : in.planar) {
+        planar.color = planar.depth = standIns.make(view.renderSize);
+        planar.view.size = vec2(view.renderSize);
+    }
+    for (uint32_t i = 0; i < light.probeCount; ++i) {
+        const RefletProbe probe = probeAt(light, i);
+        HostProbe made{};
+        made.radiance = standIns.make(uvec2(probe.radiance.width > 0 ? probe.radiance.width : 128));
+        made.levels = std::max(probe.radianceLevels, 1U);
+        made.distance = given(probe.distance) ? standIns.make(made.radiance.size) : gpu::Image{};
+        made.irradiance = given(probe.irradiance) ? standIns.make(uvec2(16)) : gpu::Image{};
+        if (probe.sphericalHarmonics != nullptr) {
+            made.harmonics.emplace();
+        }
+        made.params.parallax = static_cast<uint32_t>(probe.parallax == REFLET_PARALLAX_DEPTH  ? ProbeParallax::depth
+                                                     : probe.parallax == REFLET_PARALLAX_NONE ? ProbeParallax::none
+                                                                                              : ProbeParallax::box);
+        in.probes.push_back(made);
+    }
+    in.probeKey.push_back({});  // of no host
+    return in;
+}
+
 void prepareLobes(RefletView_T& view, Frame& frame, const Settings& settings, const RefletPrepareInfo& info,
                   const FrameKind& kind, StandIns& standIns) {
     EnvironmentInputs environment;
     environment.image = info.hasEnvironmentImage != 0 ? standIns.make(uvec2(256)) : gpu::Image{};
     const gpu::Image color = standIns.make(view.renderSize);
+    const SourceInputs sources = preparedSources(view, info, standIns);
+    const LobeInputsOfHost in{color, environment, sources};
     for (const uint32_t lobe : {lobeDiffuse, lobeSpecular}) {
         const LobeFrom from = lobe == lobeDiffuse ? kind.diffuse : kind.specular;
         if (from == LobeFrom::rays) {
-            recordLobe(view, frame, settings, lobe, color, environment);
+            recordLobe(view, frame, settings, lobe, in);
         } else if (from == LobeFrom::host) {
             recordDenoise(view, frame, settings, lobe, color);
         } else if (from == LobeFrom::answeredRays) {
-            recordMissedRays(view, frame, settings, lobe, color, environment);
+            recordMissedRays(view, frame, settings, lobe, in);
             recordAnswers(view, frame);
         }
     }
@@ -254,6 +292,8 @@ RefletResult refletPrepare(RefletView view, RefletSettings settings, const Refle
         }
         const RefletGBuffer gbuffer = adopted(given.gbuffer, "RefletPrepareInfo.gbuffer");
         given.gbuffer = &gbuffer;  // of the size that this library knows
+        const RefletIndirectLight light = preparedLight(given);
+        given.light = given.light != nullptr ? &light : nullptr;
         checkBoolean(given.hasEnvironmentImage, "RefletPrepareInfo.hasEnvironmentImage");
         checkBoolean(given.autoExposure, "RefletPrepareInfo.autoExposure");
         checkBoolean(given.changesSize, "RefletPrepareInfo.changesSize");

@@ -61,7 +61,7 @@ namespace reflet {
 struct HostSurfaces {
     gpu::Image depth;
     bool reversed = true;
-    gpu::Image normal;
+    gpu::Image normal;           ///< none: toward the camera
     gpu::Image geometricNormal;  ///< none: from depth
     uint32_t normalKind = normalOctahedralSnorm;
     gpu::Image roughness;
