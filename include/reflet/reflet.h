@@ -176,7 +176,7 @@ REFLET_API RefletResult refletCreateSettings(const char* preset, RefletSettings*
 REFLET_API void refletDestroySettings(RefletSettings settings);
 /**
  * Sets what a preset of the program differs in from the defaults: "fast", "balanced" or "quality". Settings of effects
- * that the library does not have (probes, planar reflections) are left out.
+ * that only the program has (captured probes, drawn planar reflections) are left out.
  */
 REFLET_API RefletResult refletApplyPreset(RefletSettings settings, const char* preset);
 /** Sets one from text: ("trace_screen.max_steps", "64"). The error suggests the nearest name, or says the range. */
@@ -469,6 +469,58 @@ typedef struct RefletSunShadow {
  */
 REFLET_API RefletResult refletSunShadow(RefletView view, RefletSettings settings, const RefletSunShadow* sun,
                                         RefletImage* visibility);
+
+/** What a lamp's shadow map is. */
+typedef enum RefletLampMapKind {
+    REFLET_LAMP_MAP_TILE = 0,                  /**< a square of a 2D image, or all of it: spot lights */
+    REFLET_LAMP_MAP_SIX_TILES = 1,             /**< six squares of a 2D image, for all directions */
+    REFLET_LAMP_MAP_CUBE = 2,                  /**< a view of type VK_IMAGE_VIEW_TYPE_CUBE, in world space */
+    REFLET_LAMP_MAP_KIND_MAX_ENUM = 0x7FFFFFFF /**< no value: lets any int be refused */
+} RefletLampMapKind;
+
+/** What a lamp's shadow map holds. */
+typedef enum RefletLampDepth {
+    REFLET_LAMP_DEPTH_REVERSED = 0, /**< depth, 1 at the near plane; 0: nothing is there */
+    REFLET_LAMP_DEPTH_STANDARD = 1, /**< depth, 0 at the near plane; 1: nothing is there */
+    REFLET_LAMP_DEPTH_DISTANCE = 2, /**< distance from the lamp, in red, any float or unorm format; 0: nothing */
+    REFLET_LAMP_DEPTH_MAX_ENUM = 0x7FFFFFFF /**< no value: lets any int be refused */
+} RefletLampDepth;
+
+#define REFLET_MAX_LAMP_SHADOWS 16
+
+/** A point or spot light with the shadow map that the host has drawn. */
+typedef struct RefletLampShadow {
+    size_t structSize;      /**< required; of an array, that of the first is the step to the next */
+    float position[3];      /**< required: world space */
+    float radius;           /**< metres, of the disk that shines: penumbras of PCSS follow from it. 0: sharp shadows */
+    float range;            /**< metres beyond which it lights nothing, and its visibility is 0. 0: infinite */
+    float direction[3];     /**< of a spot: where it shines, world space, of any length. All 0: a point light */
+    float coneAngle;        /**< of a spot: radians from `direction`, beyond which it is dark; above 0 to pi / 2 */
+    RefletLampMapKind kind; /**< of `map` */
+    RefletImage map;        /**< required: depth as in RefletSunShadow::map, or colour with distances */
+    RefletLampDepth depth;  /**< what `map` holds */
+    float distanceScale;    /**< metres per unit of REFLET_LAMP_DEPTH_DISTANCE; 0: 1 */
+    /**
+     * Of tiles, required: world to clip space, perspective with the lamp as eye; of one tile, with the same angle to
+     * all sides. Of six tiles in any order, which together see all directions.
+     */
+    float worldToClip[6][16];
+    uint32_t clipYUp;               /**< as in RefletFrameInfo, of the tiles */
+    uint32_t clipDepthFromMinusOne; /**< as in RefletFrameInfo, of the tiles */
+    uint32_t tiles[6][3];           /**< first texel, x and y, and side of each tile; all 0: all of a square map */
+    float nearPlane; /**< of a cube of depth, required: metres; faces are projected with 90 degrees to each side */
+    float farPlane;  /**< of a cube of depth: metres; 0: infinite */
+} RefletLampShadow;
+
+/**
+ * Visibility of lamps, RGBA8 of the frame's size, a 2D array view with a layer per four lamps, (count + 3) / 4: lamp i
+ * is channel i % 4 of layer i / 4; 1: lit; 0 also on what faces away from the lamp, and beyond its range or cone. By
+ * `shadow.filter`: hard, pcf or pcss, with `shadow.samples`; refletTemporal averages the noise. Maps of any size may
+ * go together. In each frame the last call's result counts. lamps: an array of `count`, at most
+ * REFLET_MAX_LAMP_SHADOWS. What is thinner than a texel: refletContactShadows.
+ */
+REFLET_API RefletResult refletLampShadows(RefletView view, RefletSettings settings, const RefletLampShadow* lamps,
+                                          uint32_t count, RefletImage* visibility);
 
 /** A light that casts contact shadows. */
 typedef struct RefletContactLight {
@@ -821,8 +873,9 @@ typedef enum RefletEffect {
     REFLET_EFFECT_TONE_MAP = 1 << 7,
     REFLET_EFFECT_AMBIENT_OCCLUSION = 1 << 8,
     REFLET_EFFECT_DEPTH_OF_FIELD = 1 << 9,
-    REFLET_EFFECT_MISSED_DIFFUSE_RAYS = 1 << 10,   /**< refletMissedRays and refletAnswerRays of the diffuse lobe */
-    REFLET_EFFECT_MISSED_REFLECTION_RAYS = 1 << 11 /**< and of the specular lobe */
+    REFLET_EFFECT_MISSED_DIFFUSE_RAYS = 1 << 10,    /**< refletMissedRays and refletAnswerRays of the diffuse lobe */
+    REFLET_EFFECT_MISSED_REFLECTION_RAYS = 1 << 11, /**< and of the specular lobe */
+    REFLET_EFFECT_LAMP_SHADOWS = 1 << 12
 } RefletEffect;
 
 /** What the frames to come will be. */
@@ -839,6 +892,8 @@ typedef struct RefletPrepareInfo {
     uint32_t changesSize;            /**< 1: RefletFrameInfo::renderSize will change from frame to frame */
     /** Probes, planar views and images of the frames to come; of images, only whether they are given. NULL: none. */
     const RefletIndirectLight* light;
+    uint32_t lampMapSide;  /**< of refletLampShadows: texels of the largest map or face; 0: 512 */
+    uint32_t lampMapTiles; /**< of all lamps: 1 of a 2D map, 6 of a cube; 0: 7 */
 } RefletPrepareInfo;
 
 /**
@@ -874,8 +929,8 @@ REFLET_API RefletResult refletPassTimes(RefletView view, uint32_t* count, Reflet
 
 /**
  * An intermediate image of the current frame: depth, normal, geometric_normal, base_color, material, motion, pyramid,
- * light, sun_visibility, ambient_occlusion, diffuse, specular, diffuse_confidence, specular_confidence. The error lists
- * what there is.
+ * light, sun_visibility, lamp_visibility, ambient_occlusion, diffuse, specular, diffuse_confidence,
+ * specular_confidence. The error lists what there is.
  */
 REFLET_API RefletResult refletFindImage(RefletView view, const char* name, RefletImage* image);
 

@@ -165,11 +165,15 @@ std::string describe(const RefletView_T& view) {
     lines.push_back(fmt::format("jitter: ({:.3f}, {:.3f}) pixels right and down, ({:.3f}, {:.3f}) before",
                                 info.jitter[0], info.jitter[1], info.previousJitter[0], info.previousJitter[1]));
     describeSurfaces(lines, d.gbuffer);
-    const std::pair<bool, const char*> effects[] = {
-        {bool(frame.sunVisibility), "sun shadow"},   {bool(frame.ambientOcclusion), "ambient occlusion"},
-        {frame.diffuse.has_value(), "diffuse lobe"}, {frame.specular.has_value(), "specular lobe"},
-        {bool(frame.composed), "composite"},         {bool(frame.antialiased), "temporal"},
-        {bool(frame.defocused), "depth of field"},   {bool(frame.display), "tone map"}};
+    const std::pair<bool, const char*> effects[] = {{bool(frame.sunVisibility), "sun shadow"},
+                                                    {bool(frame.lampVisibility), "lamp shadows"},
+                                                    {bool(frame.ambientOcclusion), "ambient occlusion"},
+                                                    {frame.diffuse.has_value(), "diffuse lobe"},
+                                                    {frame.specular.has_value(), "specular lobe"},
+                                                    {bool(frame.composed), "composite"},
+                                                    {bool(frame.antialiased), "temporal"},
+                                                    {bool(frame.defocused), "depth of field"},
+                                                    {bool(frame.display), "tone map"}};
     Lines ran;
     for (const auto& [there, name] : effects) {
         if (there) {

@@ -20,15 +20,6 @@ gpu::BufferView blueNoiseOf(RefletView_T& view) {
     return buffer;
 }
 
-// The frame's context with the tables that stages read, which are made for the first of them.
-const lighting::ViewContext& contextOf(RefletView_T& view, Frame& frame) {
-    if (!frame.context.ggxTable) {
-        frame.context.ggxTable = lighting::ggxTable(view.recorder, view.store->ggxTable);
-        frame.context.blueNoise = blueNoiseOf(view);
-    }
-    return frame.context;
-}
-
 // This frame's and the last frame's picture. The first effect of a frame that reads or writes it swaps them.
 gpu::History litOf(RefletView_T& view, Frame& frame) {
     if (!frame.lit.next) {
@@ -133,14 +124,39 @@ void keepLobe(gpu::PassList& f, const std::optional<LobeLight>& lobe) {
     }
 }
 
-// Records what a call has listed. What later calls and the host may read stays for the rest of the frame.
+}  // namespace
+
+const lighting::ViewContext& contextOf(RefletView_T& view, Frame& frame) {
+    if (!frame.context.ggxTable) {
+        frame.context.ggxTable = lighting::ggxTable(view.recorder, view.store->ggxTable);
+        frame.context.blueNoise = blueNoiseOf(view);
+    }
+    return frame.context;
+}
+
 void finishCall(RefletView_T& view, const Frame& frame) {
     gpu::Recorder& f = view.recorder;
     const GBuffer& g = frame.g;
-    for (const gpu::Image& image :
-         {frame.shownDepth, frame.reactive, g.depth, g.normal, g.geometricNormal, g.baseColor, g.material, g.motion,
-          g.reflectance, frame.backDepth, frame.pyramid, frame.light, frame.antialiased, frame.sharp, frame.defocused,
-          frame.circleOfConfusion, frame.sunVisibility, frame.ambientOcclusion, frame.display}) {
+    for (const gpu::Image& image : {frame.shownDepth,
+                                    frame.reactive,
+                                    g.depth,
+                                    g.normal,
+                                    g.geometricNormal,
+                                    g.baseColor,
+                                    g.material,
+                                    g.motion,
+                                    g.reflectance,
+                                    frame.backDepth,
+                                    frame.pyramid,
+                                    frame.light,
+                                    frame.antialiased,
+                                    frame.sharp,
+                                    frame.defocused,
+                                    frame.circleOfConfusion,
+                                    frame.sunVisibility,
+                                    frame.lampVisibility,
+                                    frame.ambientOcclusion,
+                                    frame.display}) {
         f.keep(image);
     }
     for (uint32_t i = 0; i < frame.contactCount; ++i) {
@@ -151,8 +167,6 @@ void finishCall(RefletView_T& view, const Frame& frame) {
     keepLobe(f, frame.specular);
     f.flush();
 }
-
-}  // namespace
 
 gpu::FrameSizes sizesOf(const RefletView_T& view, uvec2 before) {
     return {before, view.renderSize, view.size, lighting::rescaleHistory};

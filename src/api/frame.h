@@ -33,6 +33,9 @@ struct Rectangle {
 /// Throws Failure if an image cannot be sampled, has another size or lacks channels. name: of the field.
 void checkImage(const RefletImage& image, const char* name, const Rectangle& read, uint32_t channels);
 
+/// Whether it has a depth aspect.
+bool isDepthFormat(VkFormat format);
+
 /// Makes the host's images readable by compute passes while it lives, and leaves them as they were.
 class HostImages {
 public:
@@ -83,6 +86,11 @@ struct EnvironmentInputs {
     EnvironmentParams params{};
 };
 
+/// The frame's context with the tables that stages read, which are made for the first of them.
+const lighting::ViewContext& contextOf(RefletView_T& view, Frame& frame);
+/// Records what a call has listed. What later calls and the host may read stays for the rest of the frame.
+void finishCall(RefletView_T& view, const Frame& frame);
+
 /// For the recorder. before: the size of the last frame.
 gpu::FrameSizes sizesOf(const RefletView_T& view, uvec2 before);
 
@@ -92,6 +100,9 @@ void recordImport(RefletView_T& view, Frame& frame, const HostSurfaces& host, co
 gpu::Image recordSunShadow(RefletView_T& view, Frame& frame, const Settings& settings, const SunInputs& in);
 /// light: see ContactParams.
 gpu::Image recordContactShadows(RefletView_T& view, Frame& frame, const Settings& settings, const vec4& light);
+/// lamps: are completed.
+gpu::Image recordLampShadows(RefletView_T& view, Frame& frame, const Settings& settings,
+                             std::vector<lighting::HostLamp>& lamps);
 gpu::Image recordAmbientOcclusion(RefletView_T& view, Frame& frame, const Settings& settings);
 /// What rays of a lobe find, as the host gives it.
 struct LobeInputsOfHost {

@@ -98,6 +98,8 @@ struct Frame : lighting::Surfaces {
     gpu::Image defocused;
     gpu::Image circleOfConfusion;
     gpu::Image sunVisibility;
+    gpu::Image lampVisibility;                                   ///< of the last refletLampShadows
+    uint32_t lamps = 0;                                          ///< of it
     std::array<gpu::Image, REFLET_MAX_CONTACT_LIGHTS> contacts;  ///< of refletContactShadows, in order
     uint32_t contactCount = 0;
     gpu::Image display;

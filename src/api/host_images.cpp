@@ -10,10 +10,6 @@ namespace reflet::api {
 
 namespace {
 
-bool isDepth(VkFormat format) {
-    return format >= VK_FORMAT_D16_UNORM && format <= VK_FORMAT_D32_SFLOAT_S8_UINT && format != VK_FORMAT_S8_UINT;
-}
-
 // Barriers name both aspects of formats that have them.
 VkImageAspectFlags aspectsOf(VkFormat format) {
     switch (format) {
@@ -77,7 +73,7 @@ uint32_t channelsOf(VkFormat format) {
 void checkFormat(VkFormat format, const char* name, uint32_t channels) {
     const std::string given = gpu::formatName(format);
     if (channels == depthChannel) {
-        if (!isDepth(format) && format != VK_FORMAT_R32_SFLOAT) {
+        if (!isDepthFormat(format) && format != VK_FORMAT_R32_SFLOAT) {
             failArgument("{}.format: is {}; depth is of a depth format or of R32_SFLOAT", name, given);
         }
         return;
@@ -159,6 +155,10 @@ VkAccessFlags2 accessIn(VkImageLayout layout) {
 }
 
 }  // namespace
+
+bool isDepthFormat(VkFormat format) {
+    return format >= VK_FORMAT_D16_UNORM && format <= VK_FORMAT_D32_SFLOAT_S8_UINT && format != VK_FORMAT_S8_UINT;
+}
 
 void checkImage(const RefletImage& image, const char* name, const Rectangle& read, uint32_t channels) {
     if (image.view == VK_NULL_HANDLE) {

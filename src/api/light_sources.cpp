@@ -14,12 +14,6 @@ namespace reflet::api {
 
 namespace {
 
-// Element i of an array of structs that may have the size of an older header.
-template <class T>
-const T* elementOf(const T* first, size_t i) {
-    return reinterpret_cast<const T*>(reinterpret_cast<const std::byte*>(first) + i * first->structSize);
-}
-
 vec3 finiteVector(const float (&v)[3], const std::string& name) {
     for (const float value : v) {
         if (!std::isfinite(value)) {
@@ -247,8 +241,7 @@ void addPlanarViews(SourceInputs& in, const RefletIndirectLight& light, HostImag
     in.planarAfterScreen = light.planarViewsAfterScreen != 0;
     for (uint32_t i = 0; i < light.planarViewCount; ++i) {
         const std::string name = fmt::format("RefletIndirectLight.planarViews[{}]", i);
-        const RefletPlanarView planar =
-            adopted(i == 0 ? light.planarViews : elementOf(light.planarViews, i), name.c_str());
+        const RefletPlanarView planar = adopted(elementOf(light.planarViews, i), name.c_str());
         in.planar.push_back(planarOf(planar, name, host));
     }
 }
@@ -265,7 +258,7 @@ gpu::Image lightImage(const Frame& frame, const RefletImage& image, const char* 
 
 RefletProbe probeAt(const RefletIndirectLight& light, uint32_t i) {
     const std::string name = fmt::format("RefletIndirectLight.probes[{}]", i);
-    return adopted(i == 0 ? light.probes : elementOf(light.probes, i), name.c_str());
+    return adopted(elementOf(light.probes, i), name.c_str());
 }
 
 RefletIndirectLight preparedLight(const RefletPrepareInfo& info) {

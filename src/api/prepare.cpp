@@ -13,7 +13,7 @@ namespace reflet::api {
 
 namespace {
 
-constexpr uint32_t allEffects = 2 * REFLET_EFFECT_MISSED_REFLECTION_RAYS - 1;
+constexpr uint32_t allEffects = 2 * REFLET_EFFECT_LAMP_SHADOWS - 1;
 
 // Stand-ins for the host's images: passes that are only prepared never read them.
 class StandIns {
@@ -106,6 +106,21 @@ void prepareSun(RefletView_T& view, Frame& frame, const Settings& settings, cons
     recordSunShadow(view, frame, settings, sun);
 }
 
+// One 2D map and one cube map: their passes are all that lamps have.
+void prepareLamps(RefletView_T& view, Frame& frame, const Settings& settings, const RefletPrepareInfo& info,
+                  StandIns& standIns) {
+    const uint32_t side = info.lampMapSide > 0 ? info.lampMapSide : 512;
+    const uint32_t count = std::clamp((std::max(info.lampMapTiles, 7U) + 5) / 6, 2U, maxShadowedLamps);
+    std::vector<lighting::HostLamp> lamps(count);
+    for (lighting::HostLamp& lamp : lamps) {
+        lamp.isCube = &lamp != lamps.data();
+        lamp.map = standIns.make(uvec2(side));
+        lamp.shadow.side = side;
+        lamp.shadow.tiles = lamp.isCube ? cubeFaces : 1;
+    }
+    recordLampShadows(view, frame, settings, lamps);
+}
+
 // Probes, planar views and images as info.light will have them.
 SourceInputs preparedSources(const RefletView_T& view, const RefletPrepareInfo& info, StandIns& standIns) {
     SourceInputs in;
@@ -177,6 +192,9 @@ void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrep
     recordImport(view, frame, surfaces, {});
     if (asked(REFLET_EFFECT_SUN_SHADOW)) {
         prepareSun(view, frame, settings, info, kind, standIns);
+    }
+    if (asked(REFLET_EFFECT_LAMP_SHADOWS)) {
+        prepareLamps(view, frame, settings, info, standIns);
     }
     if (asked(REFLET_EFFECT_CONTACT_SHADOWS) && settings.contact.distance > 0.0F) {
         recordContactShadows(view, frame, settings, vec4(0.0F, 1.0F, 0.0F, 0.0F));
@@ -267,6 +285,7 @@ std::vector<Named> imagesOf(const Frame& frame) {
             {"pyramid", frame.pyramid},
             {"light", frame.light},
             {"sun_visibility", frame.sunVisibility},
+            {"lamp_visibility", frame.lampVisibility},
             {"ambient_occlusion", frame.ambientOcclusion},
             {"circle_of_confusion", frame.circleOfConfusion},
             {"diffuse", radiance(frame.diffuse)},

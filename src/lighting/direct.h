@@ -3,11 +3,13 @@
 
 #include "effects/direct/direct.h"
 #include "effects/direct/lamp_tiles.h"
+#include "effects/shadow/import_lamp_map.h"
 #include "effects/shadow/lamp_shadow.h"
 #include "lighting/settings.h"
 #include "lighting/surfaces.h"
 
 #include <cmath>
+#include <span>
 
 namespace reflet::lighting {
 
@@ -65,6 +67,19 @@ LampTiles lampTiles(gpu::PassList& f, const ViewContext& in, const DirectSetting
 /// Visibility of the lamps that cast shadows; none if no lamp does. map: the shadow maps of these.
 gpu::Image lampShadow(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings,
                       const Surfaces& surfaces, const LampTiles& tiles, const LampShadows& shadows, gpu::Image map);
+
+/// A lamp of a host with its shadow map.
+struct HostLamp {
+    LampShadow shadow{};        ///< `index` and `firstTile` are set
+    ImportLampParams import{};  ///< what tells how the host's map is to be read; the rest is set
+    gpu::Image map;             ///< 2D, or a view of a cube
+    bool isCube = false;
+};
+
+/// Visibility of a host's lamps, 1 to maxShadowedLamps: RGBA8, a layer per four. Throws UsageError if their maps do not
+/// fit into one image of the device.
+gpu::Image lampShadow(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings,
+                      const Surfaces& surfaces, std::span<HostLamp> lamps);
 
 /// Sources of direct light and how much of them surfaces see.
 struct LightSources {

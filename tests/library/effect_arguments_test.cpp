@@ -141,6 +141,61 @@ TEST_F(EffectArguments, OfIndirectLight) {
     });
 }
 
+TEST_F(EffectArguments, OfLampShadows) {
+    RefletLampShadow right{};
+    right.structSize = sizeof right;
+    right.map = host_.makeImage(VK_FORMAT_R32_SFLOAT, 16, 16, std::vector<float>(256));
+    const float toClip[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0.1F, 0};  // along +z
+    std::memcpy(right.worldToClip[0], toClip, sizeof toClip);
+    const auto expectLampError = [&](const std::string& field, const std::function<void(RefletLampShadow&)>& spoil) {
+        RefletLampShadow given[2] = {right, right};
+        spoil(given[1]);
+        expectError(refletLampShadows(view_, settings_, given, 2, &image_), "lamps[1]." + field);
+    };
+    inAFrame([&] {
+        expectLampError("position", [](auto& l) { l.position[0] = NAN; });
+        expectLampError("worldToClip[0]", [](auto& l) { l.position[0] = 1.0F; });
+        expectLampError("worldToClip[0]", [](auto& l) { l.worldToClip[0][3] = INFINITY; });
+        expectLampError("worldToClip[0]", [](auto& l) { l.worldToClip[0][0] = 2.0F; });
+        expectLampError("worldToClip[0]", [](auto& l) { l.worldToClip[0][11] = 0.0F; });
+        expectLampError("worldToClip[1]", [](auto& l) {
+            l.kind = REFLET_LAMP_MAP_SIX_TILES;
+            l.tiles[0][2] = 4;
+        });
+        expectLampError("radius", [](auto& l) { l.radius = -1.0F; });
+        expectLampError("range", [](auto& l) { l.range = INFINITY; });
+        expectLampError("direction", [](auto& l) { l.direction[2] = NAN; });
+        expectLampError("coneAngle", [](auto& l) { l.direction[2] = 1.0F; });
+        expectLampError("kind", [](auto& l) { l.kind = RefletLampMapKind(3); });
+        expectLampError("map.image", [](auto& l) { l.map.image = VK_NULL_HANDLE; });
+        expectLampError("map.format", [](auto& l) { l.map.format = VK_FORMAT_R8G8B8A8_UNORM; });
+        expectLampError("map.width", [](auto& l) {
+            l.kind = REFLET_LAMP_MAP_CUBE;
+            l.map.width = 8;
+        });
+        expectLampError("nearPlane", [](auto& l) { l.kind = REFLET_LAMP_MAP_CUBE; });
+        expectLampError("farPlane", [](auto& l) {
+            l.kind = REFLET_LAMP_MAP_CUBE;
+            l.nearPlane = 2.0F;
+            l.farPlane = 1.0F;
+        });
+        expectLampError("depth", [](auto& l) { l.depth = RefletLampDepth(3); });
+        expectLampError("distanceScale", [](auto& l) {
+            l.depth = REFLET_LAMP_DEPTH_DISTANCE;
+            l.distanceScale = -1.0F;
+        });
+        expectLampError("clipYUp", [](auto& l) { l.clipYUp = 2; });
+        expectLampError("tiles[0]", [](auto& l) { l.tiles[0][2] = 17; });
+        expectLampError("tiles[0]", [](auto& l) { l.kind = REFLET_LAMP_MAP_SIX_TILES; });
+        expectError(refletLampShadows(view_, settings_, &right, 0, &image_), "count");
+        expectError(refletLampShadows(view_, settings_, &right, REFLET_MAX_LAMP_SHADOWS + 1, &image_), "count");
+        expectError(refletLampShadows(view_, settings_, nullptr, 1, &image_), "lamps[0]");
+        expectError(refletLampShadows(view_, settings_, &right, 1, nullptr), "visibility");
+        EXPECT_REFLET(refletSetSetting(settings_, "shadow.filter", "none"));
+        expectError(refletLampShadows(view_, settings_, &right, 1, &image_), "shadow.filter");
+    });
+}
+
 TEST_F(EffectArguments, OfTheSunsShadow) {
     inAFrame([&] {
         expectSunError("map.image", [](auto& s) { s.map.image = VK_NULL_HANDLE; });

@@ -260,7 +260,7 @@ private:
         around_.image = environment(*view.environment.image);
         light.environment = &around_;
         if (from.images.contains("probe_atlas")) {
-            addProbes(light, from.images.at("probe_atlas"), view.probes);
+            addProbes(light, from.images.at("probe_atlas"), *view.probes);
         }
         return light;
     }
