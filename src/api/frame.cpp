@@ -196,7 +196,7 @@ gpu::Image recordSunShadow(RefletView_T& view, Frame& frame, const Settings& set
         failArgument("shadow.filter: the library does not trace shadow rays; set hard, pcf or pcss");
     }
     const lighting::ViewContext& context = contextOf(view, frame);
-    const gpu::Image map = lighting::importShadowMap(f, in.map, in.sun.count, in.reversed);
+    const ShadowMap map{in.map, true, in.reversed, in.sun.count};
     const lighting::SunMaps maps{map,       lighting::shadowRange(f, settings.shadow, map), in.sun, in.toSun, in.slope,
                                  in.contact};
     frame.sunVisibility = lighting::sunShadow(f, &view.store->sunVisibility, context, settings, frame, maps).visibility;

@@ -13,7 +13,7 @@ namespace {
 
 // Texels along a side of a cascade's tile.
 uint32_t tileSide(const SunMaps& maps) {
-    return maps.map.size.x / (maps.sun.count > 1 ? 2U : 1U);
+    return maps.map.size().x / (maps.sun.count > 1 ? 2U : 1U);
 }
 
 // Normals vary by half as much as mirrored directions, and the mean square of a disk's radius is half of its square.
@@ -46,16 +46,16 @@ uvec2 shadowRangeSize(uvec2 map) {
     return reflet::shadowRangeSize(map);
 }
 
-gpu::Image shadowRange(gpu::PassList& f, const ShadowSettings& settings, gpu::Image map) {
+gpu::Image shadowRange(gpu::PassList& f, const ShadowSettings& settings, const ShadowMap& map) {
     if (!readsShadowRange(settings)) {
         return {};
     }
-    const gpu::Image range = f.image("shadow_range", shadowRangeFormat, shadowRangeSize(map.size));
+    const gpu::Image range = f.image("shadow_range", shadowRangeFormat, shadowRangeSize(map.size()));
     shadowRange(f, map, range);
     return range;
 }
 
-void shadowRange(gpu::PassList& f, gpu::Image map, gpu::Image range) {
+void shadowRange(gpu::PassList& f, const ShadowMap& map, gpu::Image range) {
     makeShadowRange(f, map, range);
 }
 

@@ -20,7 +20,7 @@ inline float sunSlope(float angularDiameter) {
 
 /// The sun and its shadow maps, as a caller has drawn or imported them.
 struct SunMaps {
-    gpu::Image map;         ///< depth, reversed, a tile per cascade; none: everything is lit
+    ShadowMap map;          ///< none: everything is lit
     gpu::Image range;       ///< of shadowRange; none: the blocker search has no early-out
     SunShadowParams sun{};  ///< of the cascades
     vec3 toSun{0.0F};       ///< unit
@@ -47,9 +47,9 @@ bool readsShadowRange(const ShadowSettings& settings);
 uvec2 shadowRangeSize(uvec2 map);
 constexpr VkFormat shadowRangeFormat = VK_FORMAT_R32G32_SFLOAT;
 /// The range of a map that is new in each frame; none if sunShadow does not read it.
-gpu::Image shadowRange(gpu::PassList& f, const ShadowSettings& settings, gpu::Image map);
+gpu::Image shadowRange(gpu::PassList& f, const ShadowSettings& settings, const ShadowMap& map);
 /// Writes all of the range of a map: nearest and farthest depth of its cells.
-void shadowRange(gpu::PassList& f, gpu::Image map, gpu::Image range);
+void shadowRange(gpu::PassList& f, const ShadowMap& map, gpu::Image range);
 
 /// Visibility of the sun: shadow map, denoised penumbras, contact shadows. history: of penumbras; none: this frame
 /// alone.

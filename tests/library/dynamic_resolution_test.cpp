@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 #include <memory>
 #include <tuple>
@@ -22,15 +21,6 @@ protected:
         settings_ = makeSettings("balanced");
         EXPECT_REFLET(refletSetSetting(settings_, "ao.method", "bitmask"));
         EXPECT_REFLET(refletSetSetting(settings_, "shadow.history", "16"));
-        if (const char* e = std::getenv("EXPERIMENT")) {
-            std::string all = e;
-            for (size_t at = 0; at < all.size();) {
-                const size_t end = std::min(all.find(',', at), all.size());
-                const std::string one = all.substr(at, end - at);
-                EXPECT_REFLET(refletSetSetting(settings_, one.substr(0, one.find('=')).c_str(), one.substr(one.find('=') + 1).c_str()));
-                at = end + 1;
-            }
-        }
     }
     void TearDown() override {
         refletDestroySettings(settings_);
@@ -191,13 +181,6 @@ TEST_F(DynamicResolution, PicturesAreAtMostThreeTimesAsWrongAsThoseOfOneSize) {
     const double one = error(last(constant, frames, false), wanted);
     const double few = error(last(mild, frames, false), wanted);
     const double many = error(last(wild, frames, false), wanted);
-    const double c50 = error(last([](uint32_t){return uvec2(50,31);}, frames, false), wanted);
-    const double c46 = error(last([](uint32_t){return uvec2(46,29);}, frames, false), wanted);
-    const double c64 = error(last([](uint32_t){return largest;}, frames, false), wanted);
-    const double c56 = error(last([](uint32_t){return uvec2(56,35);}, frames, false), wanted);
-    const double c41 = error(last([](uint32_t){return uvec2(41,27);}, frames, false), wanted);
-    const auto once = [&](uint32_t at) { return error(last([at](uint32_t i){return i < at ? uvec2(50,31) : uvec2(48,30);}, frames, false), wanted); };
-    std::printf("50: %g 46: %g 64: %g 56: %g 41: %g; change at 47: %g, 44: %g, 40: %g, 32: %g\n", c50, c46, c64, c56, c41, once(47), once(44), once(40), once(32));
     std::printf("relative MSE: %g of one size, %g of mild changes, %g of wild ones\n", one, few, many);
     // The aim is 1.1. Measured: 2.2 and 2.5, not yet explained in full.
     EXPECT_LT(few, 2.6 * one);

@@ -129,7 +129,6 @@ public:
         const HostSurfaces given{.depth = surfaces.g.depth, .normal = stores_.color.last()};
         f.keep(lighting::importSurfaces(f, given, {view, mat4(1.0F)}).g.normal);
         f.keep(lighting::importLight(f, stores_.sky.last()));
-        f.keep(lighting::importShadowMap(f, stores_.shadowMap.last(), 1, true));
         f.keep(lighting::keptDepth(f, view, {.format = DepthBuffer::standard16}, surfaces.g.depth));
         keepLampShadows(f, context, surfaces);
         const gpu::Image smaller = f.image("host.smaller", colorFormat, uvec2(8));
@@ -245,7 +244,8 @@ private:
     gpu::Image lightDirectly(gpu::PassList& f, const lighting::ViewContext& context, const LightingSettings& settings,
                              lighting::Surfaces& surfaces) {
         const vec3 toSun = glm::normalize(vec3(0.3F, 0.5F, 1.0F));
-        lighting::SunMaps sun{.map = stores_.shadowMap.last(), .toSun = toSun, .slope = 0.005F, .contact = true};
+        lighting::SunMaps sun{
+            .map = {stores_.shadowMap.last(), true, false}, .toSun = toSun, .slope = 0.005F, .contact = true};
         sun.sun.count = 1;
         sun.sun.maps[0] = {glm::scale(mat4(1.0F), vec3(0.05F)), toSun, 0.1F, 40.0F};
         const lighting::SunShadow seen =

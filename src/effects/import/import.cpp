@@ -93,16 +93,4 @@ gpu::Image importLight(gpu::PassList& f, gpu::Image light, const LightImport& ho
     return out;
 }
 
-gpu::Image importShadowMap(gpu::PassList& f, gpu::Image map, uint32_t cascades, bool reversed) {
-    const uvec2 tiles(cascades > 1 ? 2 : 1, cascades > 2 ? 2 : 1);
-    const gpu::Image out = f.image("shadow_map", VK_FORMAT_R32_SFLOAT, map.size * tiles);
-    f.compute("import.shadow", cascades > 1 ? "import_shadow_array.comp" : "import_shadow.comp")
-        .constant("reversed", reversed ? 1 : 0)
-        .read("hostMap", map)
-        .write("map", out)
-        .params(ImportShadowParams{map.size, cascades})
-        .dispatch(out.size);
-    return out;
-}
-
 }  // namespace reflet

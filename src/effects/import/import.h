@@ -1,4 +1,4 @@
-// Import: turns a host's G-buffer, light and shadow maps, whatever their conventions, into the images that effects
+// Import: turns a host's G-buffer and light, whatever their conventions, into the images that effects
 // read. Values that are not finite become 0, and light is bounded, so that nothing that a host draws can spread or last
 // (bound_light.h). Shared by C++ and GLSL.
 #ifndef REFLET_EFFECTS_IMPORT_H
@@ -40,11 +40,6 @@ struct ImportParams {
 struct ImportLightParams {
     uvec2 size;
     float maxRadiance;  // luminance
-};
-
-struct ImportShadowParams {
-    uvec2 size;  // of a map
-    uint cascades;
 };
 
 SHARED_END
@@ -101,9 +96,6 @@ struct LightImport {
 
 /// RGBA16F of the same size: finite, 0 to 65504.
 gpu::Image importLight(gpu::PassList& f, gpu::Image light, const LightImport& how = {});
-
-/// R32F: the cascades' maps as tiles, depth reversed (SunShadowParams). map: a 2D array view if there are several.
-gpu::Image importShadowMap(gpu::PassList& f, gpu::Image map, uint32_t cascades, bool reversed);
 
 }  // namespace reflet
 #endif

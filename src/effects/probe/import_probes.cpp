@@ -122,8 +122,8 @@ ProbeMaps importProbes(gpu::PassList& f, HostProbeStore& own, std::span<const Ho
     }
     maps.parallax = static_cast<ProbeParallax>(parallax);
     for (uint32_t i = 0; i < maps.block.count; ++i) {  // those without a limit of their own are as captured probes
-        uint32_t& own = maps.block.probes[i].parallax;
-        own = own == parallax ? static_cast<uint32_t>(ProbeParallax::depth) : own;
+        uint32_t& limit = maps.block.probes[i].parallax;
+        limit = limit == parallax ? static_cast<uint32_t>(ProbeParallax::depth) : limit;
     }
     maps.lobes = own.map.lobes.image();
     maps.diffuse = own.map.sharp.image();
