@@ -3,6 +3,7 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <optional>
@@ -314,6 +315,78 @@ TEST_F(LightSources, PlanarViewsShowWhatIsAboveThePicture) {
     }
     EXPECT_GT(high, 30U);
     EXPECT_GT(sky, 10U);
+}
+
+// Every kind at once: no frame makes a pipeline after refletPrepare, and the second frame makes nothing of the probes'
+// maps again.
+TEST_F(LightSources, ArePrepared) {
+    set("denoise.enabled", "true");
+    std::array<RefletProbe, 3> probes{boxProbe(vec3(2.0F, 3.0F, 1.0F)), boxProbe(vec3(-2.0F, 3.0F, 1.0F)),
+                                      boxProbe(vec3(0.0F, 3.0F, 1.0F))};
+    const std::array<float, 27> coefficients{};
+    probes[0].parallax = REFLET_PARALLAX_DEPTH;
+    probes[0].distance = boxCube(vec3(2.0F, 3.0F, 1.0F), true);
+    probes[1].sphericalHarmonics = coefficients.data();
+    probes[2].irradiance = probes[2].radiance;
+    const RefletFrameInfo drawn = room_.frame(VK_NULL_HANDLE, 0);
+    RefletPlanarView planar{};
+    planar.structSize = sizeof planar;
+    planar.color = room_.light().light;
+    planar.depth = drawn.gbuffer->depth;
+    std::memcpy(planar.worldToView, drawn.worldToView, sizeof planar.worldToView);
+    std::memcpy(planar.viewToClip, drawn.viewToClip, sizeof planar.viewToClip);
+    planar.plane[1] = 1.0F;
+    RefletIndirectLight light = room_.light();
+    light.specularFallback = light.irradiance = light.light;
+    light.probes = probes.data();
+    light.probeCount = uint32_t(probes.size());
+    light.planarViews = &planar;
+    light.planarViewCount = 1;
+    RefletLampShadow lamp{};
+    lamp.structSize = sizeof lamp;
+    lamp.kind = REFLET_LAMP_MAP_CUBE;
+    lamp.depth = REFLET_LAMP_DEPTH_DISTANCE;
+    lamp.map = probes[0].distance;
+    RefletView view = makeView(context_, 1);
+    RefletPrepareInfo info{};
+    info.structSize = sizeof info;
+    info.effects =
+        REFLET_EFFECT_DIFFUSE_GI | REFLET_EFFECT_REFLECTIONS | REFLET_EFFECT_COMPOSITE | REFLET_EFFECT_LAMP_SHADOWS;
+    info.gbuffer = drawn.gbuffer;
+    info.light = &light;
+    info.lampMapSide = 128;
+    uint32_t left = 0;
+    EXPECT_REFLET(refletPrepare(view, settings_, &info, 1000, &left));
+    const uint64_t made = LibraryHost::made().pipelines;
+    EXPECT_GT(made, 20U);
+    std::array<uint32_t, 3> passes{};
+    for (uint32_t i = 0; i < passes.size(); ++i) {
+        RefletLobe lobe = emptyLobe();
+        RefletComposite sum{sizeof sum, {}, {}, {}};
+        RefletImage visibility{};
+        host_.host.frame([&](VkCommandBuffer commands) {
+            const RefletFrameInfo frame = room_.frame(commands, i);
+            EXPECT_REFLET(refletBeginFrame(view, &frame));
+            EXPECT_REFLET(refletLampShadows(view, settings_, &lamp, 1, &visibility));
+            EXPECT_REFLET(refletDiffuseGi(view, settings_, &light, &lobe));
+            EXPECT_REFLET(refletReflections(view, settings_, &light, &lobe));
+            EXPECT_REFLET(refletComposite(view, settings_, nullptr, &sum));
+            EXPECT_REFLET(refletEndFrame(view));
+        });
+        host_.host.waitForAll();
+        EXPECT_REFLET(refletFinishView(view));
+        std::array<RefletPassTime, 256> times{};
+        uint32_t count = uint32_t(times.size());
+        EXPECT_REFLET(refletPassTimes(view, &count, times.data()));
+        for (uint32_t k = 0; k < count; ++k) {
+            passes[i] += std::string(times[k].name).starts_with("probe.") ? 1 : 0;
+        }
+    }
+    EXPECT_EQ(LibraryHost::made().pipelines, made);
+    EXPECT_GT(passes[0], 0U);
+    EXPECT_EQ(passes[1], 0U);
+    EXPECT_EQ(passes[2], 0U);
+    refletDestroyView(view);
 }
 
 }  // namespace
