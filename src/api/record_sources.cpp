@@ -16,6 +16,9 @@ ProbeMaps probeMaps(RefletView_T& view, const SourceInputs& in) {
     gpu::PassList& f = view.recorder;
     ProbeImages& own = view.store->probes;
     const bool write = own.key != in.probeKey || f.isDiscarded(own.list);
+    if (write) {
+        own.key.clear();  // making the maps may fail
+    }
     const ProbeMaps maps = lighting::importProbes(f, own.maps, in.probes, write);
     if (write) {
         own.key = in.probeKey;
