@@ -126,7 +126,7 @@ ProbeMaps importProbes(gpu::PassList& f, HostProbeStore& own, std::span<const Ho
         limit = limit == parallax ? static_cast<uint32_t>(ProbeParallax::depth) : limit;
     }
     maps.lobes = own.map.lobes.image();
-    maps.diffuse = own.map.sharp.image();
+    maps.diffuse = maps.lobes;
     maps.irradiance = own.map.irradiance.image();
     maps.distance = own.distance.info().size.x > 0 ? own.distance.image() : gpu::Image{};
     return maps;
