@@ -24,10 +24,11 @@ set(folders base scene noise compare reference shaders gpu reflection effects li
 
 # How effects feed one another is known to src/lighting alone. The renderer may include, of the effects, only:
 set(renderer_headers
-    effects/view.h effects/lamps.h effects/planar/planar.h # parameters, shared with shaders
+    effects/view.h effects/lamps.h effects/planar/planar.h effects/probe/probes.h # parameters, shared with shaders
     effects/gbuffer/gbuffer.h effects/shadow/shadow.h effects/shadow/lamp_shadow.h # what it draws
     effects/cube_map/cube_map.h effects/environment/environment_light.h effects/lobe/rays.h
     effects/lobe/generate_rays.h effects/lobe/ray_tiles.h effects/lobe/trace_screen.h
+    effects/probe/answer_probes.h
     effects/ambient_occlusion/ambient_occlusion.h # its own sources of rays: probes, the traced scene, glass
     effects/exposure/exposure.h effects/tonemap/tone_map_image.h) # on the host, for images of the reference
 

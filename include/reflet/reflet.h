@@ -176,7 +176,7 @@ REFLET_API RefletResult refletCreateSettings(const char* preset, RefletSettings*
 REFLET_API void refletDestroySettings(RefletSettings settings);
 /**
  * Sets what a preset of the program differs in from the defaults: "fast", "balanced" or "quality". Settings of effects
- * that the library does not have (probes, planar reflections) are left out.
+ * that only the program has (captured probes, drawn planar reflections) are left out.
  */
 REFLET_API RefletResult refletApplyPreset(RefletSettings settings, const char* preset);
 /** Sets one from text: ("trace_screen.max_steps", "64"). The error suggests the nearest name, or says the range. */
@@ -470,6 +470,58 @@ typedef struct RefletSunShadow {
 REFLET_API RefletResult refletSunShadow(RefletView view, RefletSettings settings, const RefletSunShadow* sun,
                                         RefletImage* visibility);
 
+/** What a lamp's shadow map is. */
+typedef enum RefletLampMapKind {
+    REFLET_LAMP_MAP_TILE = 0,                  /**< a square of a 2D image, or all of it: spot lights */
+    REFLET_LAMP_MAP_SIX_TILES = 1,             /**< six squares of a 2D image, for all directions */
+    REFLET_LAMP_MAP_CUBE = 2,                  /**< a view of type VK_IMAGE_VIEW_TYPE_CUBE, in world space */
+    REFLET_LAMP_MAP_KIND_MAX_ENUM = 0x7FFFFFFF /**< no value: lets any int be refused */
+} RefletLampMapKind;
+
+/** What a lamp's shadow map holds. */
+typedef enum RefletLampDepth {
+    REFLET_LAMP_DEPTH_REVERSED = 0, /**< depth, 1 at the near plane; 0: nothing is there */
+    REFLET_LAMP_DEPTH_STANDARD = 1, /**< depth, 0 at the near plane; 1: nothing is there */
+    REFLET_LAMP_DEPTH_DISTANCE = 2, /**< distance from the lamp, in red, any float or unorm format; 0: nothing */
+    REFLET_LAMP_DEPTH_MAX_ENUM = 0x7FFFFFFF /**< no value: lets any int be refused */
+} RefletLampDepth;
+
+#define REFLET_MAX_LAMP_SHADOWS 16
+
+/** A point or spot light with the shadow map that the host has drawn. */
+typedef struct RefletLampShadow {
+    size_t structSize;      /**< required; of an array, that of the first is the step to the next */
+    float position[3];      /**< required: world space */
+    float radius;           /**< metres, of the disk that shines: penumbras of PCSS follow from it. 0: sharp shadows */
+    float range;            /**< metres beyond which it lights nothing, and its visibility is 0. 0: infinite */
+    float direction[3];     /**< of a spot: where it shines, world space, of any length. All 0: a point light */
+    float coneAngle;        /**< of a spot: radians from `direction`, beyond which it is dark; above 0 to pi / 2 */
+    RefletLampMapKind kind; /**< of `map` */
+    RefletImage map;        /**< required: depth as in RefletSunShadow::map, or colour with distances */
+    RefletLampDepth depth;  /**< what `map` holds */
+    float distanceScale;    /**< metres per unit of REFLET_LAMP_DEPTH_DISTANCE; 0: 1 */
+    /**
+     * Of tiles, required: world to clip space, perspective with the lamp as eye; of one tile, with the same angle to
+     * all sides. Of six tiles in any order, which together see all directions.
+     */
+    float worldToClip[6][16];
+    uint32_t clipYUp;               /**< as in RefletFrameInfo, of the tiles */
+    uint32_t clipDepthFromMinusOne; /**< as in RefletFrameInfo, of the tiles */
+    uint32_t tiles[6][3];           /**< first texel, x and y, and side of each tile; all 0: all of a square map */
+    float nearPlane; /**< of a cube of depth, required: metres; faces are projected with 90 degrees to each side */
+    float farPlane;  /**< of a cube of depth: metres; 0: infinite */
+} RefletLampShadow;
+
+/**
+ * Visibility of lamps, RGBA8 of the frame's size, a 2D array view with a layer per four lamps, (count + 3) / 4: lamp i
+ * is channel i % 4 of layer i / 4; 1: lit; 0 also on what faces away from the lamp, and beyond its range or cone. By
+ * `shadow.filter`: hard, pcf or pcss, with `shadow.samples`; refletTemporal averages the noise. Maps of any size may
+ * go together. In each frame the last call's result counts. lamps: an array of `count`, at most
+ * REFLET_MAX_LAMP_SHADOWS. What is thinner than a texel: refletContactShadows.
+ */
+REFLET_API RefletResult refletLampShadows(RefletView view, RefletSettings settings, const RefletLampShadow* lamps,
+                                          uint32_t count, RefletImage* visibility);
+
 /** A light that casts contact shadows. */
 typedef struct RefletContactLight {
     size_t structSize; /**< required */
@@ -509,6 +561,76 @@ typedef struct RefletEnvironment {
     uint64_t revision;
 } RefletEnvironment;
 
+/** Of irradiance that a host gives. */
+typedef enum RefletIrradianceKind {
+    REFLET_IRRADIANCE = 0,                       /**< E: the integral of radiance times cosine, W/m² */
+    REFLET_IRRADIANCE_OVER_PI = 1,               /**< E / pi: the cosine-weighted mean of radiance, W/(m² sr) */
+    REFLET_IRRADIANCE_KIND_MAX_ENUM = 0x7FFFFFFF /**< no value: lets any int be refused */
+} RefletIrradianceKind;
+
+/** Where a ray meets the surroundings that a probe shows. */
+typedef enum RefletParallax {
+    REFLET_PARALLAX_BOX = 0,  /**< on the parallax box (Lagarde and Zanuttini, SIGGRAPH 2012) */
+    REFLET_PARALLAX_NONE = 1, /**< infinitely far away */
+    /** Where it passes behind what RefletProbe::distance shows (Szirmay-Kalos et al., 2005), else on the box. */
+    REFLET_PARALLAX_DEPTH = 2,
+    REFLET_PARALLAX_MAX_ENUM = 0x7FFFFFFF /**< no value: lets any int be refused */
+} RefletParallax;
+
+#define REFLET_MAX_PROBES 16
+
+/**
+ * A light probe of the host, for rays that find nothing on the screen. Its cube maps are views of type
+ * VK_IMAGE_VIEW_TYPE_CUBE, faces in Vulkan's order and orientation, in world space; RefletImage's size is that of a
+ * face, and six layers from `baseLayer` are meant. The library resamples them once for each `revision`, to faces of 16
+ * to 256 texels, the largest of all probes: in later frames nothing reads them, but they must be there.
+ */
+typedef struct RefletProbe {
+    size_t structSize;       /**< required; of an array, that of the first is the step to the next */
+    float position[3];       /**< required: world space: the point whose surroundings the maps show */
+    float boxCenter[3];      /**< required: world space: surfaces in this box, along the world's axes, are lit by it */
+    float boxHalfExtents[3]; /**< required: metres, above 0 */
+    float blend;             /**< metres outside of the box over which it fades out. Nearer probes count more */
+    RefletParallax parallax; /**< how far the surroundings are */
+    float parallaxCenter[3]; /**< of the box that stands for the surroundings */
+    float parallaxHalfExtents[3]; /**< metres; all 0: the parallax box is the box */
+    RefletImage radiance;         /**< required: cube map of radiance, in the unit of RefletIndirectLight::light */
+    /**
+     * 0, 1: `radiance` has one level and is not filtered: the library prefilters it. More: its view has as many levels
+     * from `baseLevel`, level l filtered by the GGX lobe of perceptual roughness l / (levels - 1).
+     */
+    uint32_t radianceLevels;
+    /** 1: `radiance` is multiplied by its alpha: 1 surface, 0 sky, which the environment answers. 0: all is known. */
+    uint32_t alphaIsCoverage;
+    RefletImage distance;   /**< cube map, red: metres from `position`; 0, infinity: sky; for REFLET_PARALLAX_DEPTH */
+    RefletImage irradiance; /**< cube map by the surface's normal; absent: `sphericalHarmonics`, or from `radiance` */
+    RefletIrradianceKind irradianceKind; /**< of `irradiance` and `sphericalHarmonics` */
+    /**
+     * Irradiance as 9 colours, 27 floats: factors of the real basis 0.282095, 0.488603 (y, z, x), 1.092548 (xy, yz),
+     * 0.315392 (3z² - 1), 1.092548 xz, 0.546274 (x² - y²) of the world-space normal. NULL: none.
+     */
+    const float* sphericalHarmonics;
+    uint64_t revision; /**< counts changes of the content of its images */
+} RefletProbe;
+
+#define REFLET_MAX_PLANAR_VIEWS 4
+
+/** A planar reflection that the host has drawn: rays that start on the mirror are marched through its depth. */
+typedef struct RefletPlanarView {
+    size_t structSize;         /**< required; of an array, that of the first is the step to the next */
+    RefletImage color;         /**< required: radiance seen by the mirrored camera, with the sky; of any size */
+    RefletImage depth;         /**< required: of the same size, as RefletGBuffer::depth */
+    RefletDepthKind depthKind; /**< of `depth` */
+    /** Required: of the mirrored camera: that of the frame times the reflection in the plane. No jitter. */
+    float worldToView[16];
+    float viewToClip[16];           /**< required: that of the frame, or any part of it */
+    uint32_t clipYUp;               /**< as in RefletFrameInfo */
+    uint32_t clipDepthFromMinusOne; /**< as in RefletFrameInfo */
+    /** Required: dot(plane, (p, 1)) is how far p is in front of the mirror in metres; the first three: unit normal. */
+    float plane[4];
+    float tolerance; /**< metres off the plane within which surfaces belong to the mirror; 0: 0.001 */
+} RefletPlanarView;
+
 /** What rays find: the light of the picture, and that from beyond it. */
 typedef struct RefletIndirectLight {
     size_t structSize; /**< required */
@@ -519,6 +641,21 @@ typedef struct RefletIndirectLight {
      */
     RefletImage light;
     const RefletEnvironment* environment; /**< what rays find that hit nothing; NULL: black */
+    /*
+     * Light of the host's own, asked in this order where the screen does not answer, each for what is left of a ray:
+     * the image of its lobe, then the probes, then the environment. Rays that are known to hit nothing (answers of
+     * refletMissedRays with a negative distance) get the environment alone.
+     */
+    /** Of reflections: RGB: radiance that arrives along the pixel's lobe; alpha: confidence, 0 to 1. Frame's size. */
+    RefletImage specularFallback;
+    /** Of diffuse light: RGB: irradiance at the pixel's surface; alpha: confidence, 0 to 1. Of the frame's size. */
+    RefletImage irradiance;
+    RefletIrradianceKind irradianceKind; /**< of `irradiance` */
+    uint32_t probeCount;                 /**< at most REFLET_MAX_PROBES */
+    const RefletProbe* probes;           /**< the same in both lobes' calls of a frame */
+    uint32_t planarViewCount;            /**< at most REFLET_MAX_PLANAR_VIEWS */
+    uint32_t planarViewsAfterScreen;     /**< 0: reflections ask planar views before the screen; 1: for its misses */
+    const RefletPlanarView* planarViews; /**< only reflections ask them */
 } RefletIndirectLight;
 
 /** One lobe of indirect light. */
@@ -736,8 +873,9 @@ typedef enum RefletEffect {
     REFLET_EFFECT_TONE_MAP = 1 << 7,
     REFLET_EFFECT_AMBIENT_OCCLUSION = 1 << 8,
     REFLET_EFFECT_DEPTH_OF_FIELD = 1 << 9,
-    REFLET_EFFECT_MISSED_DIFFUSE_RAYS = 1 << 10,   /**< refletMissedRays and refletAnswerRays of the diffuse lobe */
-    REFLET_EFFECT_MISSED_REFLECTION_RAYS = 1 << 11 /**< and of the specular lobe */
+    REFLET_EFFECT_MISSED_DIFFUSE_RAYS = 1 << 10,    /**< refletMissedRays and refletAnswerRays of the diffuse lobe */
+    REFLET_EFFECT_MISSED_REFLECTION_RAYS = 1 << 11, /**< and of the specular lobe */
+    REFLET_EFFECT_LAMP_SHADOWS = 1 << 12
 } RefletEffect;
 
 /** What the frames to come will be. */
@@ -752,6 +890,10 @@ typedef struct RefletPrepareInfo {
     uint32_t shadowMapSide;          /**< texels; 0: 2048 */
     uint32_t autoExposure;           /**< of refletToneMap */
     uint32_t changesSize;            /**< 1: RefletFrameInfo::renderSize will change from frame to frame */
+    /** Probes, planar views and images of the frames to come; of images, only whether they are given. NULL: none. */
+    const RefletIndirectLight* light;
+    uint32_t lampMapSide;  /**< of refletLampShadows: texels of the largest map or face; 0: 512 */
+    uint32_t lampMapTiles; /**< of all lamps: 1 of a 2D map, 6 of a cube; 0: 7 */
 } RefletPrepareInfo;
 
 /**
@@ -787,8 +929,8 @@ REFLET_API RefletResult refletPassTimes(RefletView view, uint32_t* count, Reflet
 
 /**
  * An intermediate image of the current frame: depth, normal, geometric_normal, base_color, material, motion, pyramid,
- * light, sun_visibility, ambient_occlusion, diffuse, specular, diffuse_confidence, specular_confidence. The error lists
- * what there is.
+ * light, sun_visibility, lamp_visibility, ambient_occlusion, diffuse, specular, diffuse_confidence,
+ * specular_confidence. The error lists what there is.
  */
 REFLET_API RefletResult refletFindImage(RefletView view, const char* name, RefletImage* image);
 

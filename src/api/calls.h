@@ -5,6 +5,7 @@
 
 #include "reflet/reflet.h"
 
+#include <cstddef>
 #include <cstring>
 #include <new>
 #include <string>
@@ -67,6 +68,13 @@ T adopted(const T* given, const char* name, size_t least = sizeof(T)) {
     }
     std::memcpy(&result, given, given->structSize);
     return result;
+}
+
+/// Element i of an array of structs that may have the size of an older header: that of the first.
+template <class T>
+const T* elementOf(const T* first, size_t i) {
+    return i == 0 ? first
+                  : reinterpret_cast<const T*>(reinterpret_cast<const std::byte*>(first) + i * first->structSize);
 }
 
 /// Throws Failure unless it is 0 or 1.

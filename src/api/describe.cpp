@@ -165,11 +165,15 @@ std::string describe(const RefletView_T& view) {
     lines.push_back(fmt::format("jitter: ({:.3f}, {:.3f}) pixels right and down, ({:.3f}, {:.3f}) before",
                                 info.jitter[0], info.jitter[1], info.previousJitter[0], info.previousJitter[1]));
     describeSurfaces(lines, d.gbuffer);
-    const std::pair<bool, const char*> effects[] = {
-        {bool(frame.sunVisibility), "sun shadow"},   {bool(frame.ambientOcclusion), "ambient occlusion"},
-        {frame.diffuse.has_value(), "diffuse lobe"}, {frame.specular.has_value(), "specular lobe"},
-        {bool(frame.composed), "composite"},         {bool(frame.antialiased), "temporal"},
-        {bool(frame.defocused), "depth of field"},   {bool(frame.display), "tone map"}};
+    const std::pair<bool, const char*> effects[] = {{bool(frame.sunVisibility), "sun shadow"},
+                                                    {bool(frame.lampVisibility), "lamp shadows"},
+                                                    {bool(frame.ambientOcclusion), "ambient occlusion"},
+                                                    {frame.diffuse.has_value(), "diffuse lobe"},
+                                                    {frame.specular.has_value(), "specular lobe"},
+                                                    {bool(frame.composed), "composite"},
+                                                    {bool(frame.antialiased), "temporal"},
+                                                    {bool(frame.defocused), "depth of field"},
+                                                    {bool(frame.display), "tone map"}};
     Lines ran;
     for (const auto& [there, name] : effects) {
         if (there) {
@@ -179,6 +183,8 @@ std::string describe(const RefletView_T& view) {
     lines.push_back(fmt::format("effects so far: {}; {:.1f} MB of device memory",
                                 ran.empty() ? std::string("none") : fmt::format("{}", fmt::join(ran, ", ")),
                                 static_cast<double>(view.owner.gpu->memory().read(view.memory)) * 1e-6));
+    lines.push_back(fmt::format("light of the host: {} probes, {} planar views, {} image for rays without a hit",
+                                frame.probes, frame.planarViews, frame.hasFallback ? "an" : "no"));
     const Lines wrong = contradictions(d, v);
     lines.push_back(fmt::format("contradictions: {}",
                                 wrong.empty() ? std::string("none found") : fmt::format("{}", fmt::join(wrong, "; "))));

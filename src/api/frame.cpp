@@ -2,6 +2,7 @@
 #include "api/frame.h"
 
 #include "api/calls.h"
+#include "api/light_sources.h"
 #include "noise/blue_noise.h"
 
 namespace reflet::api {
@@ -19,15 +20,6 @@ gpu::BufferView blueNoiseOf(RefletView_T& view) {
     return buffer;
 }
 
-// The frame's context with the tables that stages read, which are made for the first of them.
-const lighting::ViewContext& contextOf(RefletView_T& view, Frame& frame) {
-    if (!frame.context.ggxTable) {
-        frame.context.ggxTable = lighting::ggxTable(view.recorder, view.store->ggxTable);
-        frame.context.blueNoise = blueNoiseOf(view);
-    }
-    return frame.context;
-}
-
 // This frame's and the last frame's picture. The first effect of a frame that reads or writes it swaps them.
 gpu::History litOf(RefletView_T& view, Frame& frame) {
     if (!frame.lit.next) {
@@ -36,28 +28,6 @@ gpu::History litOf(RefletView_T& view, Frame& frame) {
     }
     frame.lit.valid = frame.lit.valid && !frame.composed;  // which overwrites the last picture
     return frame.lit;
-}
-
-EnvironmentLight environmentLight(RefletView_T& view, const EnvironmentInputs& in) {
-    gpu::PassList& f = view.recorder;
-    EnvironmentImages& own = view.store->environment;
-    const bool changed = own.generation != f.generation() || own.revision != in.revision || own.from != in.from;
-    if (changed || f.isDiscarded(own.list)) {
-        const gpu::Image texels = own.texels.storage(f, lightFormat, in.image ? in.image.size : uvec2(1));
-        if (in.image) {
-            const auto scope = f.scope("environment");
-            lighting::importLight(f, in.image, {.into = texels});
-        } else {  // the factor is its radiance
-            f.clear(texels, {{1.0F, 1.0F, 1.0F, 1.0F}});
-        }
-        lighting::prefilterEnvironment(f, own.cube, texels, in.image ? in.image.size.x : 0);
-        own.generation = f.generation();
-        own.revision = in.revision;
-        own.from = in.from;
-        own.list = f.listNumber();
-        f.promise();
-    }
-    return {own.texels.last(), own.cube.lobes.image(), own.cube.irradiance.image(), in.params};
 }
 
 // How bright light of the host may be in this frame.
@@ -91,28 +61,6 @@ gpu::Image pictureOf(RefletView_T& view, const Settings& settings, gpu::Image gi
     return lighting::importLight(view.recorder, given, {.maxRadiance = settings.input.maxRadiance});
 }
 
-// Whether one is at least four times the other.
-bool isStep(const vec3& a, const vec3& b) {
-    constexpr float step = 4.0F;
-    return glm::any(glm::greaterThan(a, step * b)) || glm::any(glm::greaterThan(b, step * a));
-}
-
-// An environment that changes ends what the host calls rest, from the next frame on: means must forget the last one.
-// After a step of its factor the lobe's history starts anew, and rays do not read the last picture.
-void noteEnvironment(RefletView_T& view, uint32_t lobe, const EnvironmentInputs& in) {
-    ViewStore& own = *view.store;
-    const KnownEnvironment now{in.from, in.revision, in.params.factor, in.params.turn};
-    std::optional<KnownEnvironment>& known = own.environments[lobe];
-    if (known && *known != now) {
-        own.environmentRests = 0;
-        if (isStep(known->factor, now.factor)) {
-            (lobe == lobeDiffuse ? own.diffuse : own.specular) = {};
-            view.composedLast = false;
-        }
-    }
-    known = now;
-}
-
 // Then the sum is bounded, too: otherwise the lobes bring no more than the bounded light, and what the environment has
 // shown for long, such as a sun in mirrors, may be as bright as it is.
 bool isEnvironmentNew(const ViewStore& own) {
@@ -121,14 +69,14 @@ bool isEnvironmentNew(const ViewStore& own) {
 }
 
 // Imports what rays find, and the screen as they see it.
-ScreenImages screenForLobe(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image light,
-                           const EnvironmentInputs& environment) {
+ScreenImages screenForLobe(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe,
+                           const LobeInputsOfHost& in) {
     gpu::PassList& f = view.recorder;
-    noteEnvironment(view, lobe, environment);
-    frame.context.environment = environmentLight(view, environment);
+    noteEnvironment(view, lobe, in.environment);
+    frame.context.environment = environmentLight(view, in.environment);
     const lighting::ViewContext& context = contextOf(view, frame);
     f.release(frame.light);  // of the other lobe
-    frame.light = hostRadiance(view, settings, boundOf(view, frame), light, false);
+    frame.light = hostRadiance(view, settings, boundOf(view, frame), in.light, false);
     return lighting::lightAtHits(f, context, settings, lobe,
                                  lighting::screenOf(f, context, settings, frame, frame.light, litOf(view, frame)),
                                  frame.diffuse ? &*frame.diffuse : nullptr);
@@ -176,14 +124,39 @@ void keepLobe(gpu::PassList& f, const std::optional<LobeLight>& lobe) {
     }
 }
 
-// Records what a call has listed. What later calls and the host may read stays for the rest of the frame.
+}  // namespace
+
+const lighting::ViewContext& contextOf(RefletView_T& view, Frame& frame) {
+    if (!frame.context.ggxTable) {
+        frame.context.ggxTable = lighting::ggxTable(view.recorder, view.store->ggxTable);
+        frame.context.blueNoise = blueNoiseOf(view);
+    }
+    return frame.context;
+}
+
 void finishCall(RefletView_T& view, const Frame& frame) {
     gpu::Recorder& f = view.recorder;
     const GBuffer& g = frame.g;
-    for (const gpu::Image& image :
-         {frame.shownDepth, frame.reactive, g.depth, g.normal, g.geometricNormal, g.baseColor, g.material, g.motion,
-          g.reflectance, frame.backDepth, frame.pyramid, frame.light, frame.antialiased, frame.sharp, frame.defocused,
-          frame.circleOfConfusion, frame.sunVisibility, frame.ambientOcclusion, frame.display}) {
+    for (const gpu::Image& image : {frame.shownDepth,
+                                    frame.reactive,
+                                    g.depth,
+                                    g.normal,
+                                    g.geometricNormal,
+                                    g.baseColor,
+                                    g.material,
+                                    g.motion,
+                                    g.reflectance,
+                                    frame.backDepth,
+                                    frame.pyramid,
+                                    frame.light,
+                                    frame.antialiased,
+                                    frame.sharp,
+                                    frame.defocused,
+                                    frame.circleOfConfusion,
+                                    frame.sunVisibility,
+                                    frame.lampVisibility,
+                                    frame.ambientOcclusion,
+                                    frame.display}) {
         f.keep(image);
     }
     for (uint32_t i = 0; i < frame.contactCount; ++i) {
@@ -194,8 +167,6 @@ void finishCall(RefletView_T& view, const Frame& frame) {
     keepLobe(f, frame.specular);
     f.flush();
 }
-
-}  // namespace
 
 gpu::FrameSizes sizesOf(const RefletView_T& view, uvec2 before) {
     return {before, view.renderSize, view.size, lighting::rescaleHistory};
@@ -225,7 +196,7 @@ gpu::Image recordSunShadow(RefletView_T& view, Frame& frame, const Settings& set
         failArgument("shadow.filter: the library does not trace shadow rays; set hard, pcf or pcss");
     }
     const lighting::ViewContext& context = contextOf(view, frame);
-    const gpu::Image map = lighting::importShadowMap(f, in.map, in.sun.count, in.reversed);
+    const ShadowMap map{in.map, true, in.reversed, in.sun.count};
     const lighting::SunMaps maps{map,       lighting::shadowRange(f, settings.shadow, map), in.sun, in.toSun, in.slope,
                                  in.contact};
     frame.sunVisibility = lighting::sunShadow(f, &view.store->sunVisibility, context, settings, frame, maps).visibility;
@@ -257,21 +228,25 @@ gpu::Image recordAmbientOcclusion(RefletView_T& view, Frame& frame, const Settin
     return frame.ambientOcclusion;
 }
 
-LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image light,
-                     const EnvironmentInputs& environment) {
-    const ScreenImages screen = screenForLobe(view, frame, settings, lobe, light, environment);
-    const LobeLight traced =
-        lighting::traceLobe(view.recorder, &storeOf(view, lobe), frame.context, settings, lobe, frame, screen, {});
+LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe,
+                     const LobeInputsOfHost& in) {
+    const ScreenImages screen = screenForLobe(view, frame, settings, lobe, in);
+    const lighting::HostLight own = hostLight(view, frame, settings, lobe, in.sources);
+    const LobeLight traced = lighting::traceLobe(view.recorder, &storeOf(view, lobe), frame.context, settings, lobe,
+                                                 frame, screen, lighting::sourcesOf(own));
     (lobe == lobeDiffuse ? frame.diffuse : frame.specular) = traced;
     finishCall(view, frame);
     return traced;
 }
 
-MissedRays recordMissedRays(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image light,
-                            const EnvironmentInputs& environment) {
-    const ScreenImages screen = screenForLobe(view, frame, settings, lobe, light, environment);
-    frame.pending =
-        lighting::beginLobe(view.recorder, &storeOf(view, lobe), frame.context, settings, lobe, frame, screen);
+MissedRays recordMissedRays(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe,
+                            const LobeInputsOfHost& in) {
+    const ScreenImages screen = screenForLobe(view, frame, settings, lobe, in);
+    const lighting::HostLight own = hostLight(view, frame, settings, lobe, in.sources);
+    frame.pending = lighting::beginLobe(view.recorder, &storeOf(view, lobe), frame.context, settings, lobe, frame,
+                                        screen, lighting::sourcesOf(own));
+    frame.pendingLight = {own.image, own.probes, {}};
+    view.recorder.keep(own.image.light);
     finishCall(view, frame);
     return frame.pending->missed;
 }
@@ -279,11 +254,13 @@ MissedRays recordMissedRays(RefletView_T& view, Frame& frame, const Settings& se
 LobeLight recordAnswers(RefletView_T& view, Frame& frame) {
     const lighting::PendingLobe pending = *frame.pending;
     frame.pending.reset();
-    const LobeLight answered =
-        lighting::finishLobe(view.recorder, &storeOf(view, pending.lobe), frame.context, frame, pending);
+    const LobeLight answered = lighting::finishLobe(view.recorder, &storeOf(view, pending.lobe), frame.context, frame,
+                                                    pending, lighting::sourcesOf(frame.pendingLight).others);
     (pending.lobe == lobeDiffuse ? frame.diffuse : frame.specular) = answered;
     finishCall(view, frame);
     releaseMissed(view.recorder, pending.begun, pending.missed);
+    view.recorder.release(frame.pendingLight.image.light);
+    frame.pendingLight = {};
     return answered;
 }
 

@@ -33,6 +33,9 @@ struct Rectangle {
 /// Throws Failure if an image cannot be sampled, has another size or lacks channels. name: of the field.
 void checkImage(const RefletImage& image, const char* name, const Rectangle& read, uint32_t channels);
 
+/// Whether it has a depth aspect.
+bool isDepthFormat(VkFormat format);
+
 /// Makes the host's images readable by compute passes while it lives, and leaves them as they were.
 class HostImages {
 public:
@@ -41,8 +44,8 @@ public:
     HostImages(const HostImages&) = delete;
     HostImages& operator=(const HostImages&) = delete;
 
-    /// None for an absent one. size: of what is read of it; 0: all. layers: that its view has.
-    gpu::Image add(const RefletImage& image, uvec2 size, uint32_t layers = 1);
+    /// None for an absent one. size: of what is read of it; 0: all. layers, levels: that its view has.
+    gpu::Image add(const RefletImage& image, uvec2 size, uint32_t layers = 1, uint32_t levels = 1);
     /// Records the barriers of all images added so far.
     void acquire();
 
@@ -50,6 +53,7 @@ private:
     struct Given {
         RefletImage image;
         uint32_t layers;
+        uint32_t levels;
     };
 
     RefletView_T& view_;
@@ -73,12 +77,19 @@ struct SunInputs {
     bool contact = false;
 };
 
+struct SourceInputs;
+
 struct EnvironmentInputs {
     gpu::Image image;
     VkImageView from = VK_NULL_HANDLE;
     uint64_t revision = 0;
     EnvironmentParams params{};
 };
+
+/// The frame's context with the tables that stages read, which are made for the first of them.
+const lighting::ViewContext& contextOf(RefletView_T& view, Frame& frame);
+/// Records what a call has listed. What later calls and the host may read stays for the rest of the frame.
+void finishCall(RefletView_T& view, const Frame& frame);
 
 /// For the recorder. before: the size of the last frame.
 gpu::FrameSizes sizesOf(const RefletView_T& view, uvec2 before);
@@ -89,12 +100,22 @@ void recordImport(RefletView_T& view, Frame& frame, const HostSurfaces& host, co
 gpu::Image recordSunShadow(RefletView_T& view, Frame& frame, const Settings& settings, const SunInputs& in);
 /// light: see ContactParams.
 gpu::Image recordContactShadows(RefletView_T& view, Frame& frame, const Settings& settings, const vec4& light);
+/// lamps: are completed.
+gpu::Image recordLampShadows(RefletView_T& view, Frame& frame, const Settings& settings,
+                             std::vector<lighting::HostLamp>& lamps);
 gpu::Image recordAmbientOcclusion(RefletView_T& view, Frame& frame, const Settings& settings);
-LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image light,
-                     const EnvironmentInputs& environment);
+/// What rays of a lobe find, as the host gives it.
+struct LobeInputsOfHost {
+    gpu::Image light;
+    const EnvironmentInputs& environment;
+    const SourceInputs& sources;
+};
+
+LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe,
+                     const LobeInputsOfHost& in);
 /// The first half of recordLobe: rays, the screen, and what is left for the host, in frame.pending.
-MissedRays recordMissedRays(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image light,
-                            const EnvironmentInputs& environment);
+MissedRays recordMissedRays(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe,
+                            const LobeInputsOfHost& in);
 /// The second half, once the host has answered them.
 LobeLight recordAnswers(RefletView_T& view, Frame& frame);
 LobeLight recordDenoise(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image noisy);

@@ -7,6 +7,7 @@
 #include "lighting/direct.h"
 #include "lighting/environment.h"
 #include "lighting/host_images.h"
+#include "lighting/host_sources.h"
 #include "lighting/indirect.h"
 #include "lighting/picture.h"
 
@@ -46,6 +47,13 @@ struct EnvironmentImages {
     uint64_t list = 0;                 ///< whose passes make them
 };
 
+/// The maps of the host's probes.
+struct ProbeImages {
+    HostProbeStore maps;
+    std::vector<std::byte> key;  ///< what they were made of; empty: nothing
+    uint64_t list = 0;           ///< whose passes make them
+};
+
 /// The environment that a lobe was given last.
 struct KnownEnvironment {
     VkImageView from = VK_NULL_HANDLE;
@@ -61,6 +69,7 @@ struct ViewStore {
     gpu::KeptBuffer blueNoise{"blue_noise"};
     gpu::KeptImage ggxTable{"ggx_table"};
     EnvironmentImages environment;
+    ProbeImages probes;
     gpu::HistoryImage sunVisibility{"shadow_clean.history"};
     DenoiseStore ambientOcclusion;
     LobeStore diffuse;
@@ -89,12 +98,18 @@ struct Frame : lighting::Surfaces {
     gpu::Image defocused;
     gpu::Image circleOfConfusion;
     gpu::Image sunVisibility;
+    gpu::Image lampVisibility;                                   ///< of the last refletLampShadows
+    uint32_t lamps = 0;                                          ///< of it
     std::array<gpu::Image, REFLET_MAX_CONTACT_LIGHTS> contacts;  ///< of refletContactShadows, in order
     uint32_t contactCount = 0;
     gpu::Image display;
     std::optional<LobeLight> diffuse;
     std::optional<LobeLight> specular;
     std::optional<lighting::PendingLobe> pending;  ///< whose rays wait for the host's answers
+    lighting::HostLight pendingLight;              ///< of the host's for these rays, without mirrors
+    uint32_t probes = 0;                           ///< given to the last lobe
+    uint32_t planarViews = 0;                      ///< given to the last lobe
+    bool hasFallback = false;                      ///< RefletIndirectLight::specularFallback or irradiance was given
     float elapsed = 0.0F;
     reflet::lighting::Change change;
     uvec2 size{0};                  ///< RefletFrameInfo::renderSize, or the view's

@@ -10,10 +10,6 @@ namespace reflet::api {
 
 namespace {
 
-bool isDepth(VkFormat format) {
-    return format >= VK_FORMAT_D16_UNORM && format <= VK_FORMAT_D32_SFLOAT_S8_UINT && format != VK_FORMAT_S8_UINT;
-}
-
 // Barriers name both aspects of formats that have them.
 VkImageAspectFlags aspectsOf(VkFormat format) {
     switch (format) {
@@ -77,7 +73,7 @@ uint32_t channelsOf(VkFormat format) {
 void checkFormat(VkFormat format, const char* name, uint32_t channels) {
     const std::string given = gpu::formatName(format);
     if (channels == depthChannel) {
-        if (!isDepth(format) && format != VK_FORMAT_R32_SFLOAT) {
+        if (!isDepthFormat(format) && format != VK_FORMAT_R32_SFLOAT) {
             failArgument("{}.format: is {}; depth is of a depth format or of R32_SFLOAT", name, given);
         }
         return;
@@ -123,12 +119,12 @@ bool isKnown(VkImageLayout layout) {
     }
 }
 
-VkImageMemoryBarrier2 barrierOf(const RefletImage& image, uint32_t layers) {
+VkImageMemoryBarrier2 barrierOf(const RefletImage& image, uint32_t layers, uint32_t levels) {
     VkImageMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
     barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     barrier.image = image.image;
-    barrier.subresourceRange = {aspectsOf(image.format), image.baseLevel, 1, image.baseLayer, layers};
+    barrier.subresourceRange = {aspectsOf(image.format), image.baseLevel, levels, image.baseLayer, layers};
     return barrier;
 }
 
@@ -159,6 +155,10 @@ VkAccessFlags2 accessIn(VkImageLayout layout) {
 }
 
 }  // namespace
+
+bool isDepthFormat(VkFormat format) {
+    return format >= VK_FORMAT_D16_UNORM && format <= VK_FORMAT_D32_SFLOAT_S8_UINT && format != VK_FORMAT_S8_UINT;
+}
 
 void checkImage(const RefletImage& image, const char* name, const Rectangle& read, uint32_t channels) {
     if (image.view == VK_NULL_HANDLE) {
@@ -193,7 +193,7 @@ void checkImage(const RefletImage& image, const char* name, const Rectangle& rea
     }
 }
 
-gpu::Image HostImages::add(const RefletImage& image, uvec2 size, uint32_t layers) {
+gpu::Image HostImages::add(const RefletImage& image, uvec2 size, uint32_t layers, uint32_t levels) {
     if (image.image == VK_NULL_HANDLE) {
         return {};
     }
@@ -208,23 +208,24 @@ gpu::Image HostImages::add(const RefletImage& image, uvec2 size, uint32_t layers
                i.image.baseLevel == image.baseLevel;
     });
     if (known == images_.end()) {
-        images_.push_back({image, layers});
+        images_.push_back({image, layers, levels});
     } else {
         known->image.stages |= image.stages;
         known->image.access |= image.access;
         known->layers = std::max(known->layers, layers);
+        known->levels = std::max(known->levels, levels);
     }
     return {&state, -1, image.format, size.x > 0 ? size : uvec2(image.width, image.height), 1, 1};
 }
 
 void HostImages::acquire() {
     std::vector<VkImageMemoryBarrier2> barriers;
-    for (const auto& [image, layers] : images_) {
+    for (const auto& [image, layers, levels] : images_) {
         const bool moves = !isSampledIn(image.layout);
         if (image.stages == 0 && !moves) {
             continue;
         }
-        VkImageMemoryBarrier2 barrier = barrierOf(image, layers);
+        VkImageMemoryBarrier2 barrier = barrierOf(image, layers, levels);
         barrier.srcStageMask = image.stages != 0 ? image.stages : VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
         barrier.srcAccessMask = image.access;
         barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
@@ -236,8 +237,8 @@ void HostImages::acquire() {
     back_.reserve(images_.size());
     record(view_, barriers);
     // Later writes of the host wait for the reads, and find the layout that they left.
-    for (const auto& [image, layers] : images_) {
-        VkImageMemoryBarrier2 barrier = barrierOf(image, layers);
+    for (const auto& [image, layers, levels] : images_) {
+        VkImageMemoryBarrier2 barrier = barrierOf(image, layers, levels);
         barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
         barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
         barrier.dstAccessMask = accessIn(image.layout);

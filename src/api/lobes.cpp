@@ -1,6 +1,7 @@
 // The lobes of the C API, and a host's own source of their rays: checks, and what it hands out.
 #include "api/calls.h"
 #include "api/frame.h"
+#include "api/light_sources.h"
 
 #include <cmath>
 
@@ -57,10 +58,14 @@ RefletLobe lobeOf(const LobeLight& light, size_t structSize) {
 struct LightInputs {
     gpu::Image light;
     EnvironmentInputs environment;
+    SourceInputs sources;
+
+    [[nodiscard]] LobeInputsOfHost all() const { return {light, environment, sources}; }
 };
 
 LightInputs lightInputs(const Frame& frame, const RefletIndirectLight* light, HostImages& host) {
-    const RefletIndirectLight given = adopted(light, "RefletIndirectLight");
+    const RefletIndirectLight given =
+        adopted(light, "RefletIndirectLight", offsetof(RefletIndirectLight, specularFallback));
     if (given.light.image == VK_NULL_HANDLE) {
         failArgument("RefletIndirectLight.light.image: is VK_NULL_HANDLE, and is required");
     }
@@ -69,7 +74,8 @@ LightInputs lightInputs(const Frame& frame, const RefletIndirectLight* light, Ho
                                          ? adopted(given.environment, "RefletIndirectLight.environment")
                                          : RefletEnvironment{};
     checkEnvironment(around);
-    const LightInputs in{host.add(given.light, frame.size), environmentInputs(around, host)};
+    const LightInputs in{host.add(given.light, frame.size), environmentInputs(around, host),
+                         sourceInputs(frame, given, host)};
     host.acquire();
     return in;
 }
@@ -81,8 +87,7 @@ RefletResult traceLobeOf(RefletView view, RefletSettings settings, const RefletI
         const RefletLobe asked = adopted<RefletLobe>(lobe, "lobe");
         HostImages host(*view);
         const LightInputs in = lightInputs(frame, light, host);
-        const RefletLobe out =
-            lobeOf(recordLobe(*view, frame, values, kind, in.light, in.environment), asked.structSize);
+        const RefletLobe out = lobeOf(recordLobe(*view, frame, values, kind, in.all()), asked.structSize);
         std::memcpy(lobe, &out, out.structSize);
     });
 }
@@ -186,7 +191,7 @@ RefletResult refletMissedRays(RefletView view, RefletSettings settings, RefletLo
         const RefletMissedRays asked = adopted<RefletMissedRays>(missed, "RefletMissedRays");
         HostImages host(*view);
         const LightInputs in = lightInputs(frame, light, host);
-        const MissedRays rays = recordMissedRays(*view, frame, values, lobe, in.light, in.environment);
+        const MissedRays rays = recordMissedRays(*view, frame, values, lobe, in.all());
         RefletMissedRays out{};
         out.structSize = asked.structSize;
         out.rays = resultOf(rays.rays);

@@ -2,6 +2,7 @@
 #include "api/calls.h"
 #include "api/camera.h"
 #include "api/frame.h"
+#include "api/light_sources.h"
 #include "api/live.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace reflet::api {
 
 namespace {
 
-constexpr uint32_t allEffects = 2 * REFLET_EFFECT_MISSED_REFLECTION_RAYS - 1;
+constexpr uint32_t allEffects = 2 * REFLET_EFFECT_LAMP_SHADOWS - 1;
 
 // Stand-ins for the host's images: passes that are only prepared never read them.
 class StandIns {
@@ -105,19 +106,71 @@ void prepareSun(RefletView_T& view, Frame& frame, const Settings& settings, cons
     recordSunShadow(view, frame, settings, sun);
 }
 
+// One 2D map and one cube map: their passes are all that lamps have.
+void prepareLamps(RefletView_T& view, Frame& frame, const Settings& settings, const RefletPrepareInfo& info,
+                  StandIns& standIns) {
+    const uint32_t side = info.lampMapSide > 0 ? info.lampMapSide : 512;
+    const uint32_t count = std::clamp((std::max(info.lampMapTiles, 7U) + 5) / 6, 2U, maxShadowedLamps);
+    std::vector<lighting::HostLamp> lamps(count);
+    for (lighting::HostLamp& lamp : lamps) {
+        lamp.isCube = &lamp != lamps.data();
+        lamp.map = standIns.make(uvec2(side));
+        lamp.shadow.side = side;
+        lamp.shadow.tiles = lamp.isCube ? cubeFaces : 1;
+    }
+    recordLampShadows(view, frame, settings, lamps);
+}
+
+// Probes, planar views and images as info.light will have them.
+SourceInputs preparedSources(const RefletView_T& view, const RefletPrepareInfo& info, StandIns& standIns) {
+    SourceInputs in;
+    if (info.light == nullptr) {
+        return in;
+    }
+    const RefletIndirectLight& light = *info.light;
+    const auto given = [&](const RefletImage& image) { return image.image != VK_NULL_HANDLE; };
+    in.specular = given(light.specularFallback) ? standIns.make(view.renderSize) : gpu::Image{};
+    in.irradiance = given(light.irradiance) ? standIns.make(view.renderSize) : gpu::Image{};
+    in.planarAfterScreen = light.planarViewsAfterScreen != 0;
+    in.planar.resize(light.planarViewCount);
+    for (lighting::HostPlanarView& planar : in.planar) {
+        planar.color = planar.depth = standIns.make(view.renderSize);
+        planar.view.size = vec2(view.renderSize);
+    }
+    for (uint32_t i = 0; i < light.probeCount; ++i) {
+        const RefletProbe probe = probeAt(light, i);
+        HostProbe made{};
+        made.radiance = standIns.make(uvec2(probe.radiance.width > 0 ? probe.radiance.width : 128));
+        made.levels = std::max(probe.radianceLevels, 1U);
+        made.distance = given(probe.distance) ? standIns.make(made.radiance.size) : gpu::Image{};
+        made.irradiance = given(probe.irradiance) ? standIns.make(uvec2(16)) : gpu::Image{};
+        if (probe.sphericalHarmonics != nullptr) {
+            made.harmonics.emplace();
+        }
+        made.params.parallax = static_cast<uint32_t>(probe.parallax == REFLET_PARALLAX_DEPTH  ? ProbeParallax::depth
+                                                     : probe.parallax == REFLET_PARALLAX_NONE ? ProbeParallax::none
+                                                                                              : ProbeParallax::box);
+        in.probes.push_back(made);
+    }
+    in.probeKey.push_back({});  // of no host
+    return in;
+}
+
 void prepareLobes(RefletView_T& view, Frame& frame, const Settings& settings, const RefletPrepareInfo& info,
                   const FrameKind& kind, StandIns& standIns) {
     EnvironmentInputs environment;
     environment.image = info.hasEnvironmentImage != 0 ? standIns.make(uvec2(256)) : gpu::Image{};
     const gpu::Image color = standIns.make(view.renderSize);
+    const SourceInputs sources = preparedSources(view, info, standIns);
+    const LobeInputsOfHost in{color, environment, sources};
     for (const uint32_t lobe : {lobeDiffuse, lobeSpecular}) {
         const LobeFrom from = lobe == lobeDiffuse ? kind.diffuse : kind.specular;
         if (from == LobeFrom::rays) {
-            recordLobe(view, frame, settings, lobe, color, environment);
+            recordLobe(view, frame, settings, lobe, in);
         } else if (from == LobeFrom::host) {
             recordDenoise(view, frame, settings, lobe, color);
         } else if (from == LobeFrom::answeredRays) {
-            recordMissedRays(view, frame, settings, lobe, color, environment);
+            recordMissedRays(view, frame, settings, lobe, in);
             recordAnswers(view, frame);
         }
     }
@@ -139,6 +192,9 @@ void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrep
     recordImport(view, frame, surfaces, {});
     if (asked(REFLET_EFFECT_SUN_SHADOW)) {
         prepareSun(view, frame, settings, info, kind, standIns);
+    }
+    if (asked(REFLET_EFFECT_LAMP_SHADOWS)) {
+        prepareLamps(view, frame, settings, info, standIns);
     }
     if (asked(REFLET_EFFECT_CONTACT_SHADOWS) && settings.contact.distance > 0.0F) {
         recordContactShadows(view, frame, settings, vec4(0.0F, 1.0F, 0.0F, 0.0F));
@@ -229,6 +285,7 @@ std::vector<Named> imagesOf(const Frame& frame) {
             {"pyramid", frame.pyramid},
             {"light", frame.light},
             {"sun_visibility", frame.sunVisibility},
+            {"lamp_visibility", frame.lampVisibility},
             {"ambient_occlusion", frame.ambientOcclusion},
             {"circle_of_confusion", frame.circleOfConfusion},
             {"diffuse", radiance(frame.diffuse)},
@@ -254,6 +311,8 @@ RefletResult refletPrepare(RefletView view, RefletSettings settings, const Refle
         }
         const RefletGBuffer gbuffer = adopted(given.gbuffer, "RefletPrepareInfo.gbuffer");
         given.gbuffer = &gbuffer;  // of the size that this library knows
+        const RefletIndirectLight light = preparedLight(given);
+        given.light = given.light != nullptr ? &light : nullptr;
         checkBoolean(given.hasEnvironmentImage, "RefletPrepareInfo.hasEnvironmentImage");
         checkBoolean(given.autoExposure, "RefletPrepareInfo.autoExposure");
         checkBoolean(given.changesSize, "RefletPrepareInfo.changesSize");

@@ -215,6 +215,7 @@ RefletResult refletResizeView(RefletView view, uint32_t width, uint32_t height) 
             std::swap(fresh->blueNoise, view->store->blueNoise);
             std::swap(fresh->ggxTable, view->store->ggxTable);
             std::swap(fresh->environment, view->store->environment);
+            std::swap(fresh->probes, view->store->probes);
             view->store = std::move(fresh);
         }
     });

@@ -1,7 +1,11 @@
 // Records the stages of direct light.
 #include "lighting/direct.h"
 
+#include "base/error.h"
 #include "effects/shadow/shadow_clean.h"
+#include "gpu/context.h"
+
+#include <algorithm>
 
 namespace reflet::lighting {
 
@@ -9,7 +13,7 @@ namespace {
 
 // Texels along a side of a cascade's tile.
 uint32_t tileSide(const SunMaps& maps) {
-    return maps.map.size.x / (maps.sun.count > 1 ? 2U : 1U);
+    return maps.map.size().x / (maps.sun.count > 1 ? 2U : 1U);
 }
 
 // Normals vary by half as much as mirrored directions, and the mean square of a disk's radius is half of its square.
@@ -42,16 +46,16 @@ uvec2 shadowRangeSize(uvec2 map) {
     return reflet::shadowRangeSize(map);
 }
 
-gpu::Image shadowRange(gpu::PassList& f, const ShadowSettings& settings, gpu::Image map) {
+gpu::Image shadowRange(gpu::PassList& f, const ShadowSettings& settings, const ShadowMap& map) {
     if (!readsShadowRange(settings)) {
         return {};
     }
-    const gpu::Image range = f.image("shadow_range", shadowRangeFormat, shadowRangeSize(map.size));
+    const gpu::Image range = f.image("shadow_range", shadowRangeFormat, shadowRangeSize(map.size()));
     shadowRange(f, map, range);
     return range;
 }
 
-void shadowRange(gpu::PassList& f, gpu::Image map, gpu::Image range) {
+void shadowRange(gpu::PassList& f, const ShadowMap& map, gpu::Image range) {
     makeShadowRange(f, map, range);
 }
 
@@ -96,6 +100,47 @@ gpu::Image lampShadow(gpu::PassList& f, const ViewContext& in, const LightingSet
         return {};
     }
     return lampVisibility(f, surfaces.g, {map, tiles.masks, in.blueNoise}, shadows, {in.view, settings.shadow});
+}
+
+gpu::Image lampShadow(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings,
+                      const Surfaces& surfaces, std::span<HostLamp> lamps) {
+    LampShadows shadows{};
+    LampBlock block{};
+    uint32_t tiles = 0;
+    for (HostLamp& lamp : lamps) {
+        lamp.shadow.index = block.count;
+        lamp.shadow.firstTile = tiles;
+        tiles += lamp.shadow.tiles;
+        shadows.tileSize = std::max(shadows.tileSize, lamp.shadow.side);
+        shadows.lamps[shadows.count++] = lamp.shadow;
+        block.lamps[block.count++] = lamp.shadow.lamp;
+    }
+    const uint32_t most = f.context().limits().maxImageDimension2D / shadows.tileSize;
+    shadows.columns = static_cast<uint32_t>(std::ceil(std::sqrt(static_cast<float>(tiles))));
+    if (shadows.columns > most) {
+        failUsage("lamps: {} maps of {}x{} texels do not fit into one image of this device; give smaller or fewer maps",
+                  tiles, shadows.tileSize, shadows.tileSize);
+    }
+    const auto scope = f.scope("shadow");
+    const gpu::Image atlas = lampAtlas(f, shadows);
+    for (const HostLamp& lamp : lamps) {
+        ImportLampParams params = lamp.import;
+        const LampShadow& s = lamp.shadow;
+        params.position = vec4(s.lamp.position, 0.0F);
+        const mat3 axes = glm::transpose(s.worldToTile);
+        params.tileX = vec4(axes[0], 0.0F);
+        params.tileY = vec4(axes[1], 0.0F);
+        params.tileZ = vec4(axes[2], 0.0F);
+        params.halfTangent = s.halfTangent;
+        params.near = s.near;
+        params.firstTile = s.firstTile;
+        params.faces = s.tiles;
+        params.side = s.side;
+        params.cell = shadows.tileSize;
+        params.columns = shadows.columns;
+        importLampMap(f, lamp.map, lamp.isCube, params, atlas);
+    }
+    return lampShadow(f, in, settings, surfaces, lampTiles(f, in, {}, surfaces, block), shadows, atlas);
 }
 
 DirectLight directLight(gpu::PassList& f, const ViewContext& in, const Surfaces& surfaces, const LightSources& lights) {

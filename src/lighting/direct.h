@@ -3,11 +3,13 @@
 
 #include "effects/direct/direct.h"
 #include "effects/direct/lamp_tiles.h"
+#include "effects/shadow/import_lamp_map.h"
 #include "effects/shadow/lamp_shadow.h"
 #include "lighting/settings.h"
 #include "lighting/surfaces.h"
 
 #include <cmath>
+#include <span>
 
 namespace reflet::lighting {
 
@@ -18,7 +20,7 @@ inline float sunSlope(float angularDiameter) {
 
 /// The sun and its shadow maps, as a caller has drawn or imported them.
 struct SunMaps {
-    gpu::Image map;         ///< depth, reversed, a tile per cascade; none: everything is lit
+    ShadowMap map;          ///< none: everything is lit
     gpu::Image range;       ///< of shadowRange; none: the blocker search has no early-out
     SunShadowParams sun{};  ///< of the cascades
     vec3 toSun{0.0F};       ///< unit
@@ -45,9 +47,9 @@ bool readsShadowRange(const ShadowSettings& settings);
 uvec2 shadowRangeSize(uvec2 map);
 constexpr VkFormat shadowRangeFormat = VK_FORMAT_R32G32_SFLOAT;
 /// The range of a map that is new in each frame; none if sunShadow does not read it.
-gpu::Image shadowRange(gpu::PassList& f, const ShadowSettings& settings, gpu::Image map);
+gpu::Image shadowRange(gpu::PassList& f, const ShadowSettings& settings, const ShadowMap& map);
 /// Writes all of the range of a map: nearest and farthest depth of its cells.
-void shadowRange(gpu::PassList& f, gpu::Image map, gpu::Image range);
+void shadowRange(gpu::PassList& f, const ShadowMap& map, gpu::Image range);
 
 /// Visibility of the sun: shadow map, denoised penumbras, contact shadows. history: of penumbras; none: this frame
 /// alone.
@@ -65,6 +67,19 @@ LampTiles lampTiles(gpu::PassList& f, const ViewContext& in, const DirectSetting
 /// Visibility of the lamps that cast shadows; none if no lamp does. map: the shadow maps of these.
 gpu::Image lampShadow(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings,
                       const Surfaces& surfaces, const LampTiles& tiles, const LampShadows& shadows, gpu::Image map);
+
+/// A lamp of a host with its shadow map.
+struct HostLamp {
+    LampShadow shadow{};        ///< `index` and `firstTile` are set
+    ImportLampParams import{};  ///< what tells how the host's map is to be read; the rest is set
+    gpu::Image map;             ///< 2D, or a view of a cube
+    bool isCube = false;
+};
+
+/// Visibility of a host's lamps, 1 to maxShadowedLamps: RGBA8, a layer per four. Throws UsageError if their maps do not
+/// fit into one image of the device.
+gpu::Image lampShadow(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings,
+                      const Surfaces& surfaces, std::span<HostLamp> lamps);
 
 /// Sources of direct light and how much of them surfaces see.
 struct LightSources {

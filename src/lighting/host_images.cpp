@@ -25,8 +25,4 @@ void measureLight(gpu::PassList& f, LightBound& bound, gpu::Image light) {
     reflet::measureLight(f, bound, light);
 }
 
-gpu::Image importShadowMap(gpu::PassList& f, gpu::Image map, uint32_t cascades, bool reversed) {
-    return reflet::importShadowMap(f, map, cascades, reversed);
-}
-
 }  // namespace reflet::lighting

@@ -19,9 +19,6 @@ LightBound boundLight(gpu::PassList& f, LightBoundStore& own, uvec2 size, bool r
 /// Notes light that the limits have bounded, for those of the next frame.
 void measureLight(gpu::PassList& f, LightBound& bound, gpu::Image light);
 
-/// R32F: the cascades' maps as tiles, depth reversed. map: a 2D array view if there are several.
-gpu::Image importShadowMap(gpu::PassList& f, gpu::Image map, uint32_t cascades, bool reversed);
-
 /// What keeps histories when the size of the frames changes: for gpu::FrameSizes.
 using reflet::rescaledFormats;
 using reflet::rescaleHistory;

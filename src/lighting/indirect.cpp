@@ -147,13 +147,16 @@ ScreenImages litOnce(gpu::PassList& f, LobeStore* history, const ViewContext& in
 }  // namespace
 
 PendingLobe beginLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
-                      uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen) {
-    const ScreenImages screen = screenForLobe(in, lobe, litOnce(f, history, in, settings, lobe, surfaces, seen, {}));
-    const bool marched = settings.traceScreen.enabled != 0;
+                      uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen, const RaySources& sources) {
+    const ScreenImages screen =
+        screenForLobe(in, lobe, litOnce(f, history, in, settings, lobe, surfaces, seen, sources));
+    const bool marched = settings.traceScreen.enabled != 0 && !startsWithMirrors(sources, lobe);
+    const std::vector<RaySource> order = orderOf(settings, screen, sources, lobe);
     LobeInputs inputs = inputsOf(in, settings, lobe, surfaces,
                                  {marched ? &screen : nullptr, marchOf(settings, screen), longestRay(settings, lobe)});
+    inputs.sources = order;
     inputs.lit = screen.lit;
-    inputs.randomTracing = tracesAtRandom(settings, {});
+    inputs.randomTracing = tracesAtRandom(settings, sources);
     if (inputs.settings.rays == 0) {
         failUsage("{}.rays: is 0, so that no rays can miss; set 1 or more",
                   lobe == lobeDiffuse ? "diffuse" : "specular");
@@ -165,10 +168,12 @@ PendingLobe beginLobe(gpu::PassList& f, LobeStore* history, const ViewContext& i
 }
 
 LobeLight finishLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const Surfaces& surfaces,
-                     const PendingLobe& pending) {
-    const RaySource host = [&](gpu::PassList& list, Rays& rays) { takeAnswers(list, rays, pending.missed.answers); };
+                     const PendingLobe& pending, std::span<const RaySource> others) {
+    std::vector<RaySource> order{
+        [&](gpu::PassList& list, Rays& rays) { takeAnswers(list, rays, pending.missed.answers); }};
+    order.insert(order.end(), others.begin(), others.end());
     LobeInputs inputs = inputsOf(in, pending.settings, pending.lobe, surfaces, {});
-    inputs.others = {&host, 1};
+    inputs.others = order;
     return reflet::finishLobe(f, history, inputs, pending.begun);
 }
 

@@ -45,12 +45,13 @@ struct PendingLobe {
 /// The first half of traceLobe with a host's own source: rays, answered by the screen, and what is left of them for the
 /// host. Throws UsageError if the settings have no rays, or more than fit.
 PendingLobe beginLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
-                      uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen);
+                      uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen, const RaySources& sources);
 
-/// The second half: the host has written pending.missed.answers. Everything else is as for beginLobe; the passes may be
-/// in a later list of the frame. Once that is recorded, releaseMissed gives the memory back.
+/// The second half: the host has written pending.missed.answers; others: sources for what it leaves. Everything else is
+/// as for beginLobe; the passes may be in a later list of the frame. Once that is recorded, releaseMissed gives the
+/// memory back.
 LobeLight finishLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const Surfaces& surfaces,
-                     const PendingLobe& pending);
+                     const PendingLobe& pending, std::span<const RaySource> others);
 
 /// A lobe that a host has traced, denoised. noisy: of importLight; radiance; alpha: hit distance [m].
 LobeLight denoiseLobe(gpu::PassList& f, LobeStore& history, const ViewContext& in, const LightingSettings& settings,

@@ -75,7 +75,7 @@ DirectRays traceDirectLight(gpu::PassList& f, const ViewInputs& in, const Settin
 // Sun visibility per pixel: shadow map, denoising, contact shadows, blended surfaces.
 void findSunVisibility(gpu::PassList& f, gpu::HistoryImage* history, const ViewInputs& in, const Settings& settings,
                        ViewImages& out) {
-    const lighting::SunMaps maps{out.shadowMap,    out.shadowRange, out.sun,
+    const lighting::SunMaps maps{{out.shadowMap},  out.shadowRange, out.sun,
                                  -in.sunDirection, sunSlope(in),    sunShines(in)};
     const lighting::SunShadow sun = lighting::sunShadow(f, history, contextOf(in, settings), settings, out, maps);
     out.rawSunVisibility = sun.raw;

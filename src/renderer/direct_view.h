@@ -2,6 +2,7 @@
 // also used for planar views, live cameras and probe faces.
 #pragma once
 
+#include "effects/probe/probes.h"
 #include "gpu/pass_list.h"
 #include "lighting/direct.h"
 #include "lighting/surfaces.h"
@@ -9,7 +10,6 @@
 #include "renderer/draw_gbuffer/draw_gbuffer.h"
 #include "renderer/draw_list.h"
 #include "renderer/glass/camera_medium.h"
-#include "renderer/probe/probes.h"
 #include "renderer/settings.h"
 #include "renderer/trace_scene/direct_rays.h"
 #include "renderer/trace_scene/trace_scene.h"

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "base/setting_table.h"
+#include "effects/probe/probes.h"
 #include "lighting/direct.h"
 #include "lighting/picture.h"
 #include "lighting/settings.h"
@@ -10,7 +11,6 @@
 #include "renderer/draw_gbuffer/draw_gbuffer.h"
 #include "renderer/glass/glass.h"
 #include "renderer/live/live_picture.h"
-#include "renderer/probe/probes.h"
 #include "renderer/trace_scene/trace_scene.h"
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,7 +1,7 @@
 // Names the sources of a lobe's rays.
 #include "renderer/trace_lobe.h"
 
-#include "renderer/probe/answer_probes.h"
+#include "effects/probe/answer_probes.h"
 #include "renderer/scene_source.h"
 
 #include <utility>
@@ -23,8 +23,7 @@ lighting::RaySources sourcesOf(const ViewInputs& in, const Settings& settings, c
             [&](gpu::PassList& f, Rays& rays) { traceSceneFallback(f, rays, in, settings, seen.images, seen.screen); });
     }
     if (in.probes) {
-        sources.others.emplace_back(
-            [&](gpu::PassList& f, Rays& rays) { answerProbes(f, rays, in.probes, settings.probes); });
+        sources.others.emplace_back([&](gpu::PassList& f, Rays& rays) { answerProbes(f, rays, in.probes); });
     }
     return sources;
 }

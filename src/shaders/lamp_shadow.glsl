@@ -10,7 +10,8 @@
 // A shading point relative to a lamp and its shadow maps. World space, metres.
 struct LampReceiver {
     LampShadow shadow;
-    uint tileSize;  // texels
+    uint tileSize;  // texels of the lamp's tiles
+    uint cell;      // texels from tile to tile
     uint columns;   // of tiles in the atlas
     vec3 fromLamp;  // from the lamp to the point
     vec3 normal;    // of the point's plane
@@ -44,12 +45,13 @@ vec3 toTileSpace(LampShadow shadow, uint face, vec3 v) {
     return vec3(v[(axis + 1u) % 3u], v[(axis + 2u) % 3u], face % 2u == 0u ? v[axis] : -v[axis]);
 }
 
-// bias: in texels, along the normal.
+// tileSize: texels from tile to tile; bias: in texels, along the normal.
 LampReceiver lampReceiver(LampShadow shadow, uint tileSize, uint columns, vec3 p, vec3 normal, float bias,
                           float rounding) {
     LampReceiver r;
     r.shadow = shadow;
-    r.tileSize = tileSize;
+    r.tileSize = shadow.side > 0u ? shadow.side : tileSize;
+    r.cell = tileSize;
     r.columns = columns;
     r.fromLamp = p - shadow.lamp.position;
     r.normal = normal;
@@ -63,7 +65,7 @@ LampReceiver lampReceiver(LampShadow shadow, uint tileSize, uint columns, vec3 p
     r.tiltDirection = across > 1e-3 ? sideways / across : vec3(0.0);
     r.facing = max(facing, minLampFacing);
     float along = toTileSpace(shadow, tileFace(shadow, r.fromLamp), r.fromLamp).z;
-    r.texel = 2.0 * shadow.halfTangent / float(tileSize) * along;
+    r.texel = 2.0 * shadow.halfTangent / float(r.tileSize) * along;
     r.bias = planeBias(bias * r.texel, r.facing, rounding / r.facing);
     return r;
 }
@@ -92,7 +94,7 @@ vec3 shiftedPoint(LampReceiver r, vec2 offset) { return r.fromLamp + offset.x * 
 ShadowTexel tileTexel(LampReceiver r, uint face, ivec2 texel, float aside) {
     texel = clamp(texel, ivec2(0), ivec2(r.tileSize) - 1);
     uint tile = r.shadow.firstTile + face;
-    float depth = loadLampDepth(ivec2(tile % r.columns, tile / r.columns) * int(r.tileSize) + texel);
+    float depth = loadLampDepth(ivec2(tile % r.columns, tile / r.columns) * int(r.cell) + texel);
     if (depth <= 0.0) {
         return noLampTexel;
     }

@@ -204,7 +204,7 @@ Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
         const uvec2 place = scale.toFrame(pixel);
         ray = recordRay(f, inputs, made.view, settings.traceScreen, place);
         if (made.shadowMap && settings.shadow.filter != ShadowFilter::traced) {
-            shadow = recordShadow(f, made.g, {made.shadowMap, made.shadowRange, {}},
+            shadow = recordShadow(f, made.g, {{made.shadowMap}, made.shadowRange, {}},
                                   {made.view, made.sun, settings.shadow, sunSlope, place});
         }
         hemisphere = recordHemisphere(f, inputs, made.view, diffuse, place);

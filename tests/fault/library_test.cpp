@@ -18,7 +18,7 @@ namespace {
 using test::HostRoom;
 using test::LibraryHost;
 
-constexpr uint32_t allEffects = 2 * REFLET_EFFECT_DEPTH_OF_FIELD - 1;
+constexpr uint32_t allEffects = (2 * REFLET_EFFECT_DEPTH_OF_FIELD - 1) | REFLET_EFFECT_LAMP_SHADOWS;
 
 /// Calls functions of the library, with the fault in effect, and notes the first failure.
 class Caller {
@@ -69,6 +69,40 @@ protected:
         host_ = std::make_unique<LibraryHost>();
         faults_ = faultsOfLayer();
         room_ = std::make_unique<HostRoom>(*host_, test::RoomConventions{});
+        makeSources();
+    }
+
+    // A probe, a planar view and images of the host's, and a lamp.
+    void makeSources() {
+        probe_.structSize = sizeof probe_;
+        std::ranges::fill(probe_.boxHalfExtents, 4.0F);
+        probe_.radiance =
+            host_->makeCube(VK_FORMAT_R32G32B32A32_SFLOAT, 16, std::vector<vec4>(size_t(6) * 16 * 16, vec4(1.0F)));
+        probe_.distance = probe_.irradiance = probe_.radiance;
+        probe_.parallax = REFLET_PARALLAX_DEPTH;
+        const RefletFrameInfo frame = room_->frame(VK_NULL_HANDLE, 0);
+        planar_.structSize = sizeof planar_;
+        planar_.color = room_->light().light;
+        planar_.depth = frame.gbuffer->depth;
+        std::ranges::copy(frame.worldToView, planar_.worldToView);
+        std::ranges::copy(frame.viewToClip, planar_.viewToClip);
+        planar_.plane[1] = 1.0F;
+        lamp_.structSize = sizeof lamp_;
+        lamp_.map = room_->sun().map;
+        for (const int i : {0, 5, 11}) {
+            lamp_.worldToClip[0][i] = 1.0F;
+        }
+        lamp_.worldToClip[0][14] = 0.1F;
+    }
+
+    RefletIndirectLight lightOfAllKinds() const {
+        RefletIndirectLight light = room_->light();
+        light.specularFallback = light.irradiance = light.light;
+        light.probes = &probe_;
+        light.probeCount = 1;
+        light.planarViews = &planar_;
+        light.planarViewCount = 1;
+        return light;
     }
 
     void SetUp() override {
@@ -115,6 +149,9 @@ protected:
         info.effects = allEffects;
         info.gbuffer = frame.gbuffer;
         info.autoExposure = 1;
+        const RefletIndirectLight light = lightOfAllKinds();
+        info.light = &light;
+        info.lampMapSide = 64;
         uint32_t left = 0;
         call("refletPrepare", [&] { return refletPrepare(view, settings, &info, 1000, &left); });
     }
@@ -138,11 +175,12 @@ protected:
         RefletLobe lobe = test::emptyLobe();
         RefletComposite sum{};
         sum.structSize = sizeof sum;
-        const RefletIndirectLight light = room_->light();
+        const RefletIndirectLight light = lightOfAllKinds();
         const RefletSunShadow sun = room_->sun();
         const RefletLens lens{sizeof lens, 0.2F, 3.0F, 6, 0.1F};
         if (!few) {
             call("refletSunShadow", [&] { return refletSunShadow(view, settings, &sun, &image); });
+            call("refletLampShadows", [&] { return refletLampShadows(view, settings, &lamp_, 1, &image); });
             call("refletAmbientOcclusion", [&] { return refletAmbientOcclusion(view, settings, &image); });
             call("refletDiffuseGi", [&] { return refletDiffuseGi(view, settings, &light, &lobe); });
             call("refletReflections", [&] { return refletReflections(view, settings, &light, &lobe); });
@@ -277,6 +315,9 @@ protected:
 
     std::unique_ptr<LibraryHost> host_;
     std::unique_ptr<HostRoom> room_;
+    RefletProbe probe_{};
+    RefletPlanarView planar_{};
+    RefletLampShadow lamp_{};
     Faults* faults_ = nullptr;
     RefletContext shared_ = nullptr;
     std::string atFirst_;                          ///< alive before there was a context

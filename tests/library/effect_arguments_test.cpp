@@ -1,7 +1,9 @@
 // Every argument of the effects of the C API wrong in turn, as in arguments_test.cpp.
 #include "library/arguments_fixture.h"
 
+#include <array>
 #include <cmath>
+#include <cstring>
 
 namespace reflet::test {
 namespace {
@@ -28,6 +30,32 @@ protected:
         spoil(spoiled);
         expectLightError(field, [&](RefletIndirectLight& l) { l.environment = &spoiled; });
     }
+    void expectProbeError(const std::string& field, const std::function<void(RefletProbe&)>& spoil) {
+        RefletProbe spoiled{};
+        spoiled.structSize = sizeof spoiled;
+        spoiled.boxHalfExtents[0] = spoiled.boxHalfExtents[1] = spoiled.boxHalfExtents[2] = 1.0F;
+        spoiled.radiance = cube_;
+        spoil(spoiled);
+        expectLightError("probes[0]." + field, [&](RefletIndirectLight& l) {
+            l.probes = &spoiled;
+            l.probeCount = 1;
+        });
+    }
+    void expectPlanarError(const std::string& field, const std::function<void(RefletPlanarView&)>& spoil) {
+        RefletPlanarView spoiled{};
+        spoiled.structSize = sizeof spoiled;
+        spoiled.color = light_.light;
+        spoiled.depth = room_.frame(VK_NULL_HANDLE, 0).gbuffer->depth;
+        const RefletFrameInfo camera = room_.frame(VK_NULL_HANDLE, 0);
+        std::memcpy(spoiled.worldToView, camera.worldToView, sizeof spoiled.worldToView);
+        std::memcpy(spoiled.viewToClip, camera.viewToClip, sizeof spoiled.viewToClip);
+        spoiled.plane[1] = 1.0F;
+        spoil(spoiled);
+        expectLightError("planarViews[0]." + field, [&](RefletIndirectLight& l) {
+            l.planarViews = &spoiled;
+            l.planarViewCount = 1;
+        });
+    }
     void expectSunError(const std::string& field, const std::function<void(RefletSunShadow&)>& spoil) {
         RefletSunShadow given = room_.sun();
         spoil(given);
@@ -43,7 +71,54 @@ protected:
     RefletImage image_{};
     RefletComposite sum_{sizeof sum_, {}, {}, {}};
     RefletIndirectLight light_ = room_.light();
+    RefletImage cube_ = host_.makeCube(VK_FORMAT_R32G32B32A32_SFLOAT, 16, std::vector<vec4>(size_t(6) * 16 * 16));
 };
+
+TEST_F(EffectArguments, OfProbesAndPlanarViews) {
+    inAFrame([&] {
+        expectLightError("probeCount", [](auto& l) { l.probeCount = REFLET_MAX_PROBES + 1; });
+        expectLightError("probes", [](auto& l) { l.probeCount = 1; });
+        expectLightError("planarViewCount", [](auto& l) { l.planarViewCount = REFLET_MAX_PLANAR_VIEWS + 1; });
+        expectLightError("planarViews", [](auto& l) { l.planarViewCount = 1; });
+        expectLightError("planarViewsAfterScreen", [](auto& l) { l.planarViewsAfterScreen = 2; });
+        expectLightError("irradianceKind", [](auto& l) { l.irradianceKind = RefletIrradianceKind(2); });
+        expectLightError("specularFallback.width", [&](auto& l) { l.specularFallback = cube_; });
+        expectLightError("irradiance.format", [](auto& l) {
+            l.irradiance = l.light;
+            l.irradiance.format = VK_FORMAT_R32_SFLOAT;
+        });
+        expectProbeError("structSize", [](auto& p) { p.structSize = 8; });
+        expectProbeError("position", [](auto& p) { p.position[1] = NAN; });
+        expectProbeError("boxCenter", [](auto& p) { p.boxCenter[1] = INFINITY; });
+        expectProbeError("boxHalfExtents", [](auto& p) { p.boxHalfExtents[2] = 0.0F; });
+        expectProbeError("blend", [](auto& p) { p.blend = -1.0F; });
+        expectProbeError("parallax", [](auto& p) { p.parallax = RefletParallax(3); });
+        expectProbeError("distance.image", [](auto& p) { p.parallax = REFLET_PARALLAX_DEPTH; });
+        expectProbeError("parallaxHalfExtents", [](auto& p) { p.parallaxHalfExtents[0] = -1.0F; });
+        expectProbeError("radiance.image", [](auto& p) { p.radiance.image = VK_NULL_HANDLE; });
+        expectProbeError("radiance.width", [](auto& p) { p.radiance.width = 8; });
+        expectProbeError("radianceLevels", [](auto& p) { p.radianceLevels = 6; });
+        expectProbeError("alphaIsCoverage", [](auto& p) { p.alphaIsCoverage = 2; });
+        expectProbeError("irradianceKind", [](auto& p) { p.irradianceKind = RefletIrradianceKind(-1); });
+        std::array<float, 27> coefficients{};
+        expectProbeError("sphericalHarmonics", [&](auto& p) {
+            p.irradiance = cube_;
+            p.sphericalHarmonics = coefficients.data();
+        });
+        coefficients[5] = NAN;
+        expectProbeError("sphericalHarmonics", [&](auto& p) { p.sphericalHarmonics = coefficients.data(); });
+        expectPlanarError("structSize", [](auto& p) { p.structSize = 0; });
+        expectPlanarError("color.image", [](auto& p) { p.color.image = VK_NULL_HANDLE; });
+        expectPlanarError("depth.format", [](auto& p) { p.depth.format = VK_FORMAT_R8_UNORM; });
+        expectPlanarError("depth.width", [](auto& p) { p.depth.width = 3; });
+        expectPlanarError("depthKind", [](auto& p) { p.depthKind = RefletDepthKind(7); });
+        expectPlanarError("clipYUp", [](auto& p) { p.clipYUp = 3; });
+        expectPlanarError("worldToView", [](auto& p) { p.worldToView[0] = 3.0F; });
+        expectPlanarError("viewToClip", [](auto& p) { p.viewToClip[0] = NAN; });
+        expectPlanarError("plane", [](auto& p) { p.plane[1] = 2.0F; });
+        expectPlanarError("tolerance", [](auto& p) { p.tolerance = -1.0F; });
+    });
+}
 
 TEST_F(EffectArguments, OfIndirectLight) {
     expectError(refletDiffuseGi(view_, settings_, &light_, &lobe_), "no frame has begun");
@@ -63,6 +138,61 @@ TEST_F(EffectArguments, OfIndirectLight) {
         expectError(refletDiffuseGi(view_, settings_, nullptr, &lobe_), "RefletIndirectLight");
         expectError(refletDiffuseGi(view_, settings_, &light_, nullptr), "lobe");
         expectError(refletReflections(view_, nullptr, &light_, &lobe_), "settings");
+    });
+}
+
+TEST_F(EffectArguments, OfLampShadows) {
+    RefletLampShadow right{};
+    right.structSize = sizeof right;
+    right.map = host_.makeImage(VK_FORMAT_R32_SFLOAT, 16, 16, std::vector<float>(256));
+    const float toClip[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0.1F, 0};  // along +z
+    std::memcpy(right.worldToClip[0], toClip, sizeof toClip);
+    const auto expectLampError = [&](const std::string& field, const std::function<void(RefletLampShadow&)>& spoil) {
+        RefletLampShadow given[2] = {right, right};
+        spoil(given[1]);
+        expectError(refletLampShadows(view_, settings_, given, 2, &image_), "lamps[1]." + field);
+    };
+    inAFrame([&] {
+        expectLampError("position", [](auto& l) { l.position[0] = NAN; });
+        expectLampError("worldToClip[0]", [](auto& l) { l.position[0] = 1.0F; });
+        expectLampError("worldToClip[0]", [](auto& l) { l.worldToClip[0][3] = INFINITY; });
+        expectLampError("worldToClip[0]", [](auto& l) { l.worldToClip[0][0] = 2.0F; });
+        expectLampError("worldToClip[0]", [](auto& l) { l.worldToClip[0][11] = 0.0F; });
+        expectLampError("worldToClip[1]", [](auto& l) {
+            l.kind = REFLET_LAMP_MAP_SIX_TILES;
+            l.tiles[0][2] = 4;
+        });
+        expectLampError("radius", [](auto& l) { l.radius = -1.0F; });
+        expectLampError("range", [](auto& l) { l.range = INFINITY; });
+        expectLampError("direction", [](auto& l) { l.direction[2] = NAN; });
+        expectLampError("coneAngle", [](auto& l) { l.direction[2] = 1.0F; });
+        expectLampError("kind", [](auto& l) { l.kind = RefletLampMapKind(3); });
+        expectLampError("map.image", [](auto& l) { l.map.image = VK_NULL_HANDLE; });
+        expectLampError("map.format", [](auto& l) { l.map.format = VK_FORMAT_R8G8B8A8_UNORM; });
+        expectLampError("map.width", [](auto& l) {
+            l.kind = REFLET_LAMP_MAP_CUBE;
+            l.map.width = 8;
+        });
+        expectLampError("nearPlane", [](auto& l) { l.kind = REFLET_LAMP_MAP_CUBE; });
+        expectLampError("farPlane", [](auto& l) {
+            l.kind = REFLET_LAMP_MAP_CUBE;
+            l.nearPlane = 2.0F;
+            l.farPlane = 1.0F;
+        });
+        expectLampError("depth", [](auto& l) { l.depth = RefletLampDepth(3); });
+        expectLampError("distanceScale", [](auto& l) {
+            l.depth = REFLET_LAMP_DEPTH_DISTANCE;
+            l.distanceScale = -1.0F;
+        });
+        expectLampError("clipYUp", [](auto& l) { l.clipYUp = 2; });
+        expectLampError("tiles[0]", [](auto& l) { l.tiles[0][2] = 17; });
+        expectLampError("tiles[0]", [](auto& l) { l.kind = REFLET_LAMP_MAP_SIX_TILES; });
+        expectError(refletLampShadows(view_, settings_, &right, 0, &image_), "count");
+        expectError(refletLampShadows(view_, settings_, &right, REFLET_MAX_LAMP_SHADOWS + 1, &image_), "count");
+        expectError(refletLampShadows(view_, settings_, nullptr, 1, &image_), "lamps[0]");
+        expectError(refletLampShadows(view_, settings_, &right, 1, nullptr), "visibility");
+        EXPECT_REFLET(refletSetSetting(settings_, "shadow.filter", "none"));
+        expectError(refletLampShadows(view_, settings_, &right, 1, &image_), "shadow.filter");
     });
 }
 

@@ -195,6 +195,7 @@ RefletImage LibraryHost::makeImage(VkFormat format, uint32_t width, uint32_t hei
     const gpu::OpenDevice open = host.device();
     HostImage made;
     VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+    info.flags = layers == 6 && width == height ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
     info.imageType = VK_IMAGE_TYPE_2D;
     info.format = format;
     info.extent = {width, height, 1};
@@ -233,6 +234,18 @@ RefletImage LibraryHost::makeImage(VkFormat format, uint32_t width, uint32_t hei
     host.waitForAll();
     images_.push_back(made);
     return made.told;
+}
+
+RefletImage LibraryHost::makeCube(VkFormat format, uint32_t side, const void* faces, size_t bytes) {
+    RefletImage cube = makeImage(format, side, side, faces, bytes, 6);
+    VkImageViewCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
+    info.image = cube.image;
+    info.viewType = VK_IMAGE_VIEW_TYPE_CUBE;
+    info.format = format;
+    info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 6};
+    vkCreateImageView(host.device().device, &info, nullptr, &cube.view);
+    layerViews_.push_back(cube.view);
+    return cube;
 }
 
 VkImageView LibraryHost::layerView(const RefletImage& image, uint32_t layer) {

@@ -43,6 +43,12 @@ public:
     RefletImage makeImage(VkFormat format, uint32_t width, uint32_t height, const std::vector<T>& texels) {
         return makeImage(format, width, height, texels.data(), texels.size() * sizeof(T));
     }
+    /// faces: in Vulkan's order, each as texels of makeImage. The view is that of a cube.
+    RefletImage makeCube(VkFormat format, uint32_t side, const void* faces, size_t bytes);
+    template <class T>
+    RefletImage makeCube(VkFormat format, uint32_t side, const std::vector<T>& faces) {
+        return makeCube(format, side, faces.data(), faces.size() * sizeof(T));
+    }
     /// Of one layer of an image of makeImage.
     VkImageView layerView(const RefletImage& image, uint32_t layer);
     void setLayout(const RefletImage& image, uint32_t layer, VkImageLayout from, VkImageLayout to);

@@ -6,6 +6,7 @@
 #include "lighting/direct.h"
 #include "lighting/environment.h"
 #include "lighting/host_images.h"
+#include "lighting/host_sources.h"
 #include "lighting/indirect.h"
 #include "lighting/picture.h"
 #include "noise/blue_noise.h"
@@ -39,6 +40,8 @@ struct Stores {
     gpu::KeptBuffer blueNoise{"host.blue_noise"};
     gpu::KeptImage ggx{"ggx_table"};
     CubeMap cube;
+    gpu::Texture hostCube;
+    HostProbeStore probes;
     gpu::HistoryImage sunVisibility{"shadow_clean.history"};
     gpu::HistoryImage lit{"lit"};
     DenoiseStore ao;
@@ -72,6 +75,9 @@ class HostCamera {
 public:
     explicit HostCamera(gpu::Context& context) {
         stores_.cube = CubeMap(context, environmentSide, 1, "host.environment");
+        constexpr VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+        stores_.hostCube =
+            gpu::Texture(context, {colorFormat, uvec2(16), 1, 6, usage, gpu::ViewKind::cube}, "host.cube");
     }
 
     /// spoiled: with infinity, NaN, the largest half float and negative values in every image of floats.
@@ -111,6 +117,7 @@ public:
         upload(f, stores_.shadowMap, VK_FORMAT_R32_SFLOAT, shadowMap);
         upload(f, stores_.sky, colorFormat, sky);
         f.update(stores_.blueNoise.get(f, blueNoise().size_bytes()), std::as_bytes(blueNoise()));
+        f.clear(stores_.hostCube.image(), {{1.0F, 2.0F, 3.0F, 1.0F}});
         lighting::ggxTable(f, stores_.ggx);
         lighting::prefilterEnvironment(f, stores_.cube, stores_.sky.last(), 4 * environmentSide);
     }
@@ -122,8 +129,8 @@ public:
         const HostSurfaces given{.depth = surfaces.g.depth, .normal = stores_.color.last()};
         f.keep(lighting::importSurfaces(f, given, {view, mat4(1.0F)}).g.normal);
         f.keep(lighting::importLight(f, stores_.sky.last()));
-        f.keep(lighting::importShadowMap(f, stores_.shadowMap.last(), 1, true));
         f.keep(lighting::keptDepth(f, view, {.format = DepthBuffer::standard16}, surfaces.g.depth));
+        keepLampShadows(f, context, surfaces);
         const gpu::Image smaller = f.image("host.smaller", colorFormat, uvec2(8));
         lighting::rescaleHistory(f, stores_.sky.last(), smaller, gpu::Resample::linear);
         f.keep(smaller);
@@ -237,7 +244,8 @@ private:
     gpu::Image lightDirectly(gpu::PassList& f, const lighting::ViewContext& context, const LightingSettings& settings,
                              lighting::Surfaces& surfaces) {
         const vec3 toSun = glm::normalize(vec3(0.3F, 0.5F, 1.0F));
-        lighting::SunMaps sun{.map = stores_.shadowMap.last(), .toSun = toSun, .slope = 0.005F, .contact = true};
+        lighting::SunMaps sun{
+            .map = {stores_.shadowMap.last(), true, false}, .toSun = toSun, .slope = 0.005F, .contact = true};
         sun.sun.count = 1;
         sun.sun.maps[0] = {glm::scale(mat4(1.0F), vec3(0.05F)), toSun, 0.1F, 40.0F};
         const lighting::SunShadow seen =
@@ -272,11 +280,60 @@ private:
             lighting::traceLobe(f, &stores_.diffuse, context, settings, lobeDiffuse, surfaces, screen, {});
         const ScreenImages reflected = lighting::lightAtHits(f, context, settings, lobeSpecular, screen, &diffuse);
         const LobeLight specular =
-            lighting::traceLobe(f, &stores_.specular, context, settings, lobeSpecular, surfaces, reflected, {});
+            lighting::traceLobe(f, &stores_.specular, context, settings, lobeSpecular, surfaces, reflected,
+                                lighting::sourcesOf(ownLight(f, context, settings, surfaces)));
         return {direct, diffuse, specular};
     }
 
+    // A probe, an image of light and a planar view.
+    const lighting::HostLight& ownLight(gpu::PassList& f, const lighting::ViewContext& context,
+                                        const LightingSettings& settings, const lighting::Surfaces& surfaces) {
+        HostProbe probe{};
+        probe.params = {.blend = 1.0F,
+                        .boxMin = vec3(-9.0F),
+                        .parallax = static_cast<uint32_t>(ProbeParallax::depth),
+                        .boxMax = vec3(9.0F),
+                        .parallaxMin = vec3(-9.0F),
+                        .parallaxMax = vec3(9.0F)};
+        probe.radiance = probe.distance = probe.irradiance = stores_.hostCube.image();
+        HostProbe other = probe;
+        other.irradiance = {};
+        other.harmonics.emplace();
+        other.levels = 2;
+        const std::array probes{probe, other};
+        light_ = {.image = {stores_.sky.last()}, .probes = lighting::importProbes(f, stores_.probes, probes, true)};
+        const lighting::HostPlanarView planar{.color = stores_.sky.last(),
+                                              .depth = surfaces.g.depth,
+                                              .view = context.view,
+                                              .plane = vec4(0.0F, 0.0F, 1.0F, wallDistance),
+                                              .tolerance = 0.01F};
+        light_.mirrors = {lighting::importPlanarView(f, settings, planar, 100.0F)};
+        return light_;
+    }
+
+    // By a 2D map and a cube map.
+    void keepLampShadows(gpu::PassList& f, const lighting::ViewContext& context, const lighting::Surfaces& surfaces) {
+        std::array<lighting::HostLamp, 2> lamps;
+        for (lighting::HostLamp& lamp : lamps) {
+            lamp.isCube = &lamp != lamps.data();
+            lamp.map = lamp.isCube ? stores_.hostCube.image() : stores_.shadowMap.last();
+            lamp.shadow = {.lamp = {.type = lampPoint, .intensity = vec3(1.0F), .radius = 0.1F},
+                           .worldToTile = mat3(1.0F),
+                           .halfTangent = 1.0F,
+                           .near = 0.1F,
+                           .tiles = lamp.isCube ? 6U : 1U,
+                           .side = 16};
+            lamp.import.depth = lampDistance;
+            lamp.import.distanceScale = 1.0F;
+            lamp.import.hostFaces = 1;
+            lamp.import.worldToClip[0] = mat4(1.0F);
+            lamp.import.tiles[0] = vec4(0.0F, 0.0F, 16.0F, 16.0F);
+        }
+        f.keep(lighting::lampShadow(f, context, settingsOfHost(), surfaces, lamps));
+    }
+
     Stores stores_;
+    lighting::HostLight light_;
 };
 
 }  // namespace reflet::test::effects_host_test

@@ -68,7 +68,11 @@ constexpr const char* mainPasses[] = {"contact_shadow",
                                       "record_ray",
                                       "import.surfaces",
                                       "import.light",
-                                      "import.shadow"};
+                                      "shadow.import_lamp",
+                                      "probe.import_probe",
+                                      "specular.answer_probes",
+                                      "specular.answer_image",
+                                      "specular.trace_mirror"};
 
 TEST(EffectsHost, RecordsEveryEffectBetweenItsOwnCommands) {
     Host host;
@@ -259,7 +263,8 @@ TEST(EffectsHost, KnowsEveryEffect) {
     const std::set<std::string> recorded{"accumulate", "ambient_occlusion", "composite", "contact",     "cube_map",
                                          "denoise",    "depth_of_field",    "direct",    "environment", "exposure",
                                          "gbuffer",    "light_mips",        "lobe",      "planar",      "import",
-                                         "pyramid",    "rescale",           "shadow",    "temporal",    "tonemap"};
+                                         "probe",      "pyramid",           "rescale",   "shadow",      "temporal",
+                                         "tonemap"};
     for (const auto& entry : std::filesystem::directory_iterator(REFLET_EFFECTS)) {
         if (entry.is_directory()) {
             EXPECT_TRUE(recorded.contains(entry.path().filename().string())) << entry.path();

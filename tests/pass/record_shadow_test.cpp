@@ -28,7 +28,7 @@ protected:
             }
             gpu::Readback readback;
             renderer.render(view_, size, 0, settings, [&](gpu::Frame& f, const FrameImages& images) {
-                readback = recordShadow(f, images.g, {images.shadowMap, images.shadowRange, {}},
+                readback = recordShadow(f, images.g, {{images.shadowMap}, images.shadowRange, {}},
                                         {images.view, images.sun, settings.shadow, slope, pixel});
             });
             all.emplace_back(pixel, recordedShadow(renderer.frame(), readback));

@@ -1,6 +1,6 @@
 // Irradiance / pi of cube maps as nine spherical harmonics coefficients, one thread group per cube (Ramamoorthi and
-// Hanrahan, An Efficient Representation for Irradiance Environment Maps, 2001). In: sharp (one of its mips).
-// Out: irradiance, a row of nine texels per cube.
+// Hanrahan, An Efficient Representation for Irradiance Environment Maps, 2001). In: sharp (one of its mips), or
+// irradiance. Out: irradiance, a row of nine texels per cube.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/cube_map/cube_map.glsl"
@@ -41,6 +41,7 @@ void main() {
         for (uint i = 0u; i < threads; ++i) {
             sum += sums[i][thread];
         }
-        imageStore(irradiance, ivec2(thread, cube), sum * cosineFactor(thread));
+        sum *= params.convolved != 0u ? 1.0 : cosineFactor(thread);
+        imageStore(irradiance, ivec2(thread, cube), vec4(sum.rgb * params.scale, sum.a));
     }
 }

@@ -17,6 +17,8 @@ constexpr VkImageUsageFlags usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_
 // Irradiance varies slowly with direction: texels of 3 degrees suffice.
 constexpr uint32_t irradianceSide = 32;
 
+constexpr uint32_t projectionThreads = 64;  // cube_irradiance.comp
+
 // Narrow lobes need fewer samples, and their levels have more texels.
 constexpr uint32_t fewestSamples = 64;
 constexpr uint32_t mostSamples = 512;
@@ -72,12 +74,19 @@ void projectCubeIrradiance(gpu::PassList& f, const CubeMap& map, uint32_t firstC
     while (map.sharp.info().size.x >> level > irradianceSide) {
         ++level;
     }
-    constexpr uint32_t threads = 64;  // cube_irradiance.comp
     f.compute("cube_irradiance", "cube_irradiance.comp")
         .read("sharp", map.sharp.mip(level))
         .write("irradiance", map.irradiance.image())
-        .params(CubeIrradianceParams{firstCube})
-        .dispatch(threads * count);
+        .params(CubeIrradianceParams{firstCube, 0, 1.0F})
+        .dispatch(projectionThreads * count);
+}
+
+void projectCube(gpu::PassList& f, const CubeProjection& in) {
+    f.compute("cube_irradiance", "cube_irradiance.comp")
+        .read("sharp", in.faces)
+        .write("irradiance", in.irradiance)
+        .params(CubeIrradianceParams{in.firstCube, 1, in.scale})
+        .dispatch(projectionThreads * in.count);
 }
 
 void filterCubeMap(gpu::PassList& f, const CubeMap& map, uint32_t firstCube, uint32_t count) {

@@ -24,6 +24,8 @@ struct CubeLobesParams {
 
 struct CubeIrradianceParams {
     uint firstCube;  // cube of the first thread group
+    uint convolved;  // 1: `sharp` is irradiance already
+    float scale;     // of the result
 };
 
 SHARED_END
@@ -65,6 +67,16 @@ void filterCubeLobes(gpu::PassList& f, const CubeMap& map, const CubeFaces& face
 
 /// Makes the irradiance coefficients of `count` cubes, from the mips of `sharp`.
 void projectCubeIrradiance(gpu::PassList& f, const CubeMap& map, uint32_t firstCube, uint32_t count);
+
+/// Cube maps of irradiance, to be projected to coefficients.
+struct CubeProjection {
+    gpu::Image faces;  ///< a 2D array of faces
+    gpu::Image irradiance;
+    uint32_t firstCube = 0;
+    uint32_t count = 1;
+    float scale = 1.0F;  ///< of the values of `faces` to irradiance / pi
+};
+void projectCube(gpu::PassList& f, const CubeProjection& in);
 
 /// All three, for whole cubes.
 void filterCubeMap(gpu::PassList& f, const CubeMap& map, uint32_t firstCube, uint32_t count);

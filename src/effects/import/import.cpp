@@ -52,8 +52,9 @@ ImportedSurfaces importSurfaces(gpu::PassList& f, const HostSurfaces& host, Impo
         .constant("hasExcluded", has(host.excluded))
         .constant("hasUnlit", has(host.unlit))
         .constant("hasReactive", has(host.reactive))
+        .constant("hasNormal", has(host.normal))
         .read("hostDepth", host.depth)
-        .read("hostNormal", host.normal)
+        .read("hostNormal", given(host.normal))
         .read("hostGeometricNormal", given(host.geometricNormal))
         .read("hostRoughness", given(host.roughness))
         .read("hostMetallic", given(host.metallic))
@@ -89,18 +90,6 @@ gpu::Image importLight(gpu::PassList& f, gpu::Image light, const LightImport& ho
         .write("light", out)
         .params(ImportLightParams{light.size, how.maxRadiance})
         .dispatch(light.size);
-    return out;
-}
-
-gpu::Image importShadowMap(gpu::PassList& f, gpu::Image map, uint32_t cascades, bool reversed) {
-    const uvec2 tiles(cascades > 1 ? 2 : 1, cascades > 2 ? 2 : 1);
-    const gpu::Image out = f.image("shadow_map", VK_FORMAT_R32_SFLOAT, map.size * tiles);
-    f.compute("import.shadow", cascades > 1 ? "import_shadow_array.comp" : "import_shadow.comp")
-        .constant("reversed", reversed ? 1 : 0)
-        .read("hostMap", map)
-        .write("map", out)
-        .params(ImportShadowParams{map.size, cascades})
-        .dispatch(out.size);
     return out;
 }
 

@@ -1,4 +1,4 @@
-// Import: turns a host's G-buffer, light and shadow maps, whatever their conventions, into the images that effects
+// Import: turns a host's G-buffer and light, whatever their conventions, into the images that effects
 // read. Values that are not finite become 0, and light is bounded, so that nothing that a host draws can spread or last
 // (bound_light.h). Shared by C++ and GLSL.
 #ifndef REFLET_EFFECTS_IMPORT_H
@@ -42,11 +42,6 @@ struct ImportLightParams {
     float maxRadiance;  // luminance
 };
 
-struct ImportShadowParams {
-    uvec2 size;  // of a map
-    uint cascades;
-};
-
 SHARED_END
 
 #ifdef __cplusplus
@@ -61,7 +56,7 @@ namespace reflet {
 struct HostSurfaces {
     gpu::Image depth;
     bool reversed = true;
-    gpu::Image normal;
+    gpu::Image normal;           ///< none: toward the camera
     gpu::Image geometricNormal;  ///< none: from depth
     uint32_t normalKind = normalOctahedralSnorm;
     gpu::Image roughness;
@@ -101,9 +96,6 @@ struct LightImport {
 
 /// RGBA16F of the same size: finite, 0 to 65504.
 gpu::Image importLight(gpu::PassList& f, gpu::Image light, const LightImport& how = {});
-
-/// R32F: the cascades' maps as tiles, depth reversed (SunShadowParams). map: a 2D array view if there are several.
-gpu::Image importShadowMap(gpu::PassList& f, gpu::Image map, uint32_t cascades, bool reversed);
 
 }  // namespace reflet
 #endif

@@ -24,6 +24,7 @@ layout(constant_id = 10) const uint hasBackDepth = 0u;
 layout(constant_id = 11) const uint hasExcluded = 0u;
 layout(constant_id = 12) const uint hasUnlit = 0u;
 layout(constant_id = 13) const uint hasReactive = 0u;
+layout(constant_id = 14) const uint hasNormal = 1u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { ImportParams params; };
@@ -185,7 +186,7 @@ void main() {
     vec2 uv = pixelToUv(pixel, params.view.pixel);
     vec3 p = uvToWorld(uv, max(shown, 1e-9), params.view.clipToWorld);
     vec3 toEye = directionToEye(p, params.view.eye);
-    vec3 n = d > 0.0 ? decodedNormal(texelFetch(hostNormal, pixel, 0), toEye) : toEye;
+    vec3 n = d > 0.0 && hasNormal != 0u ? decodedNormal(texelFetch(hostNormal, pixel, 0), toEye) : toEye;
     vec3 flat_ = toEye;
     if (d > 0.0) {
         flat_ = hasGeometricNormal != 0u ? decodedNormal(texelFetch(hostGeometricNormal, pixel, 0), toEye)

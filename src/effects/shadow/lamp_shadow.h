@@ -30,6 +30,7 @@ struct LampShadow {
     float near;         // geometry closer along z casts no shadow; depth = near / z [m]
     uint firstTile;     // in the atlas, rows from the top
     uint tiles;         // 1 or cubeFaces
+    uint side;          // texels that its maps have of LampShadows::tileSize; 0: all
 };
 
 struct LampShadows {
@@ -58,7 +59,7 @@ SHARED_END
 namespace reflet {
 
 struct LampShadowInputs {
-    gpu::Image map;    ///< of drawLampShadowMap
+    gpu::Image map;    ///< the atlas
     gpu::Image masks;  ///< lamp bit masks per tile, see lamps.h
     gpu::BufferView blueNoise;
 };

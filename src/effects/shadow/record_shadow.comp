@@ -16,12 +16,12 @@ layout(scalar) uniform ParamsBlock {
 };
 uniform sampler2D depth;
 uniform usampler2D geometricNormal;
-uniform sampler2D shadowMap;
+#include "effects/shadow/shadow_depth.glsl"
 uniform sampler2D range;
 layout(rgba32f) uniform writeonly image2D record;
 
 float loadShadowDepth(ivec2 texel) {
-    return texelFetch(shadowMap, texel, 0).r;
+    return shadowDepth(texel);
 }
 vec2 loadShadowRange(ivec2 cell) {
     return texelFetch(range, cell, 0).rg;

@@ -10,7 +10,7 @@ gpu::Readback recordShadow(gpu::PassList& f, const GBuffer& g, const ShadowInput
                            const RecordShadowParams& params) {
     const gpu::Image record =
         f.image("shadow_record", VK_FORMAT_R32G32B32A32_SFLOAT, uvec2(recordedShadowHead + recordedShadowTexels, 1));
-    const gpu::Image map = in.map ? in.map : g.depth;
+    const gpu::Image map = in.map ? in.map.image : g.depth;
     f.compute("record_shadow", "record_shadow.comp")
         .read("depth", g.depth)
         .read("geometricNormal", g.geometricNormal)

@@ -3,6 +3,13 @@
 
 namespace reflet {
 
+gpu::ComputePass& bindShadowMap(gpu::ComputePass& pass, const ShadowMap& map) {
+    if (map.ofHost) {
+        pass.constant("hostIsReversed", map.reversed ? 1 : 0);
+    }
+    return pass.read("shadowMap", map.image);
+}
+
 SunVisibility sunVisibility(gpu::PassList& f, const GBuffer& g, const ShadowInputs& in,
                             const ShadowVisibilityParams& params) {
     const ShadowFilter filter = params.settings.filter;
@@ -12,15 +19,17 @@ SunVisibility sunVisibility(gpu::PassList& f, const GBuffer& g, const ShadowInpu
     const auto imageIf = [&](bool needed, const char* name, VkFormat format) {
         return needed ? f.image(name, format, g.depth.size) : f.placeholder(format);
     };
-    const gpu::Image map = in.map ? in.map : g.depth;
+    const ShadowMap map = in.map ? in.map : ShadowMap{g.depth};
+    constexpr ShadowShaders shaders{"shadow_visibility.comp", "shadow_visibility_host.comp",
+                                    "shadow_visibility_layers.comp"};
     const gpu::Image penumbra = imageIf(soft, "shadow_penumbra", VK_FORMAT_R16G16_SFLOAT);
     const gpu::Image index = imageIf(cascades, "cascade_index", VK_FORMAT_R8_UNORM);
     const gpu::Image visibility = f.image("sun_visibility", VK_FORMAT_R8_UNORM, g.depth.size);
-    f.compute("shadow_visibility", "shadow_visibility.comp")
+    gpu::ComputePass pass = f.compute("shadow_visibility", shaders.of(map));
+    bindShadowMap(pass, map)
         .read("depth", g.depth)
         .read("geometricNormal", g.geometricNormal)
-        .read("shadowMap", map)
-        .read("range", in.range ? in.range : map)
+        .read("range", in.range ? in.range : g.depth)
         .read("blueNoise", in.blueNoise)
         .write("visibility", visibility)
         .write("penumbra", penumbra)

@@ -146,8 +146,24 @@ struct SunVisibility {
     gpu::Image cascadeIndex;  ///< R8: cascade index / 3, fractional where two blend; none with one cascade
 };
 
+/// The sun's shadow maps.
+struct ShadowMap {
+    gpu::Image
+        image;  ///< tiles of drawShadowMap, or a host's map: a 2D image, or a view of a 2D array, a layer a cascade
+    bool ofHost = false;
+    bool reversed = true;   ///< of a host's: 1 near the sun
+    uint32_t cascades = 1;  ///< of a host's: layers
+
+    /// Texels of all tiles.
+    [[nodiscard]] uvec2 size() const {
+        const bool layers = ofHost && cascades > 1;
+        return layers ? image.size * uvec2(2, cascades > 2 ? 2 : 1) : image.size;
+    }
+    explicit operator bool() const { return static_cast<bool>(image); }
+};
+
 struct ShadowInputs {
-    gpu::Image map;    ///< from drawShadowMap; may be none
+    ShadowMap map;     ///< may be none
     gpu::Image range;  ///< from makeShadowRange; may be none
     gpu::BufferView blueNoise;
 };
@@ -156,7 +172,19 @@ struct ShadowInputs {
 uvec2 shadowRangeSize(uvec2 map);
 
 /// Writes the range image (RG32F) of a map: the largest depth (nearest to the sun) and the smallest of each cell.
-void makeShadowRange(gpu::PassList& f, gpu::Image map, gpu::Image range);
+void makeShadowRange(gpu::PassList& f, const ShadowMap& map, gpu::Image range);
+
+/// Binds a map, and tells the shader how to read it; shaders: by who has drawn it.
+struct ShadowShaders {
+    const char* own;
+    const char* host;
+    const char* layers;
+
+    [[nodiscard]] const char* of(const ShadowMap& map) const {
+        return !map.ofHost ? own : map.cascades > 1 ? layers : host;
+    }
+};
+gpu::ComputePass& bindShadowMap(gpu::ComputePass& pass, const ShadowMap& map);
 
 SunVisibility sunVisibility(gpu::PassList& f, const GBuffer& g, const ShadowInputs& in,
                             const ShadowVisibilityParams& params);

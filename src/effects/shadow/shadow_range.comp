@@ -1,45 +1,4 @@
-// Builds one level of the shadow map's min/max pyramid. In: the map (level 1), or the level below. Out: the level, in
-// the same image.
+// Of maps that the renderer draws.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
-#include "effects/levels.glsl"
-#include "effects/shadow/shadow.h"
-
-layout(local_size_x = 8, local_size_y = 8) in;
-layout(scalar) uniform ParamsBlock { ShadowRangeParams params; };
-uniform sampler2D shadowMap;
-layout(rg32f) uniform image2D range;
-
-ivec2 texels = ivec2(params.size);
-ivec2 cells = levelSize(texels, 2);
-int level = int(params.level);
-
-// Combines two (max, min) pairs.
-vec2 ofBoth(vec2 a, vec2 b) { return vec2(max(a.x, b.x), min(a.y, b.y)); }
-
-vec2 ofTexels(ivec2 cell) {
-    const int side = 2 * int(shadowRangeTexels);
-    vec2 all = vec2(0.0, 1.0);
-    for (int y = 0; y < side; ++y) {
-        for (int x = 0; x < side; ++x) {
-            all = ofBoth(all, texelFetch(shadowMap, min(side * cell + ivec2(x, y), texels - 1), 0).rr);
-        }
-    }
-    return all;
-}
-
-vec2 below(ivec2 cell) {
-    cell = min(cell, levelSize(cells, level - 1) - 1);  // with odd sizes the last cell is read twice
-    return imageLoad(range, cell + ivec2(0, levelRow(cells, level - 1))).rg;
-}
-
-void main() {
-    ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(cell, levelSize(cells, level)))) {
-        return;
-    }
-    vec2 all = level == 1 ? ofTexels(cell)
-                          : ofBoth(ofBoth(below(2 * cell), below(2 * cell + ivec2(1, 0))),
-                                   ofBoth(below(2 * cell + ivec2(0, 1)), below(2 * cell + ivec2(1, 1))));
-    imageStore(range, cell + ivec2(0, levelRow(cells, level)), vec4(all, 0.0, 0.0));
-}
+#include "effects/shadow/shadow_range.glsl"

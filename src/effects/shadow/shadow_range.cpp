@@ -19,13 +19,14 @@ uvec2 shadowRangeSize(uvec2 map) {
     return levelsImageSize(cellsOf(map), shadowRangeLevels);
 }
 
-void makeShadowRange(gpu::PassList& f, gpu::Image map, gpu::Image range) {
+void makeShadowRange(gpu::PassList& f, const ShadowMap& map, gpu::Image range) {
+    constexpr ShadowShaders shaders{"shadow_range.comp", "shadow_range_host.comp", "shadow_range_layers.comp"};
     for (uint32_t level = 1; level < shadowRangeLevels; ++level) {
-        f.compute("shadow_range." + std::to_string(level), "shadow_range.comp")
-            .read("shadowMap", map)
+        gpu::ComputePass pass = f.compute("shadow_range." + std::to_string(level), shaders.of(map));
+        bindShadowMap(pass, map)
             .write("range", range)
-            .params(ShadowRangeParams{map.size, level})
-            .dispatch(levelSize(cellsOf(map.size), level));
+            .params(ShadowRangeParams{map.size(), level})
+            .dispatch(levelSize(cellsOf(map.size()), level));
     }
 }
 

@@ -49,7 +49,7 @@ struct Result {
 // if the whole disk is occluded.
 bool shrinkSearch(ShadowCone cone, float least, inout float radius) {
     for (int i = 0; i < 3 && radius > least; ++i) {
-        vec2 heights = heightRange(receiver, textureSize(shadowMap, 0), radius);
+        vec2 heights = heightRange(receiver, shadowAtlasSize(), radius);
         vec2 rise = abs(receiver.slope) * 2.0 * (radius * receiver.texelsPerMetre + 1.0) / vec2(receiver.tile.size);
         if (heights.x > rise.x + rise.y + receiver.bias.most) {
             return true;

@@ -75,7 +75,7 @@ gpu::Image drawShadowRange(gpu::PassList& f, gpu::KeptImage& own, gpu::Image sha
                            const SunShadowParams& sun, const ShadowSettings& settings, bool opaqueOnly) {
     const gpu::Image range = own.storage(f, lighting::shadowRangeFormat, lighting::shadowRangeSize(shadowMap.size));
     if (!holdsSunMap(f, own, list, sun, settings, opaqueOnly)) {
-        lighting::shadowRange(f, shadowMap, range);
+        lighting::shadowRange(f, ShadowMap{shadowMap}, range);
     }
     return range;
 }

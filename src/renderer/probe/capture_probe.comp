@@ -32,7 +32,7 @@ layout(rgba16f) uniform writeonly image2D atlas;
 
 uint probeCount() { return params.probes.count; }
 ProbeParams loadProbe(uint index) { return params.probes.probes[index]; }
-#include "renderer/probe/probes.glsl"
+#include "effects/probe/probes.glsl"
 
 vec3 probesOrSky(ProbeQuery q, vec3 sky) {
     float hitDistance;
@@ -46,8 +46,8 @@ vec3 indirectAt(ivec2 pixel, vec3 p) {
     MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
     Surface s = surfaceAt(pixel, texelFetch(baseColor, pixel, 0).rgb, m, dot(n, v), ggxTable, isLambert(m));
     vec3 r = reflect(-v, n);
-    ProbeQuery around = ProbeQuery(p, n, 0.0, true, ProbeParallax_box, params.blend, -1.0);
-    ProbeQuery mirrored = ProbeQuery(p, r, m.roughness, false, ProbeParallax_box, params.blend, -1.0);
+    ProbeQuery around = ProbeQuery(p, n, 0.0, true, ProbeParallax_box, 0.0, -1.0);
+    ProbeQuery mirrored = ProbeQuery(p, r, m.roughness, false, ProbeParallax_box, 0.0, -1.0);
     vec3 radiance = (s.diffuse + s.sheenAlbedo) * m.occlusion * probesOrSky(around, environmentIrradianceOverPi(n));
     return radiance + s.specular * probesOrSky(mirrored, environmentLobe(r, m.roughness));
 }

@@ -29,11 +29,20 @@ Camera cubeFaceCamera(const Probe& probe, uint32_t face) {
 
 namespace {
 
-ProbeBlock blockOf(std::span<const Probe> probes) {
+ProbeBlock blockOf(std::span<const Probe> probes, const ProbesSettings& settings) {
     ProbeBlock block{};
     block.count = static_cast<uint32_t>(std::min<size_t>(probes.size(), maxProbes));
     for (uint32_t i = 0; i < block.count; ++i) {
-        block.probes[i] = {probes[i].position, probes[i].box.min, probes[i].box.max};
+        const Aabb& box = probes[i].box;
+        block.probes[i] = {.position = probes[i].position,
+                           .blend = settings.blend,
+                           .boxMin = box.min,
+                           .parallax = static_cast<uint32_t>(ProbeParallax::depth),
+                           .boxMax = box.max,
+                           .unused = 0.0F,
+                           .parallaxMin = box.min,
+                           .unused2 = 0.0F,
+                           .parallaxMax = box.max};
     }
     return block;
 }
@@ -78,7 +87,6 @@ std::vector<std::byte> keyOf(const ProbeBlock& block, const ViewInputs& in, cons
     append(key, settings.probes.refresh == ProbeRefresh::moving ? in.time : 0.0);
     append(key, settings.probes.bounces);
     if (settings.probes.bounces > 0) {
-        append(key, settings.probes.blend);
         append(key, in.environment.params);
         append(key, in.environment.texels.state);
     }
@@ -133,7 +141,7 @@ gpu::Image Probes::captureFace(gpu::PassList& f, const Capture& capture, uint32_
                splits_ ? matte_.sharp.mip(0) : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT, gpu::ViewKind::array))
         .write("distance", distance_.mip(0))
         .write("atlas", atlas_.image())
-        .params(CaptureProbeParams{in.view, face, capture.settings.probes.blend, block_})
+        .params(CaptureProbeParams{in.view, face, block_})
         .dispatch(size);
     return images.lampShadowMap;
 }
@@ -178,7 +186,7 @@ ProbeMaps Probes::update(gpu::PassList& f, const ViewInputs& in, std::span<const
     if (settings.probes.enabled == 0 || probes.empty()) {
         return {};
     }
-    block_ = blockOf(probes);
+    block_ = blockOf(probes, settings.probes);
     std::vector<std::byte> key = keyOf(block_, in, settings);
     const bool changed = key != key_ || splits_ != anyEmitters(in.lamps);
     splits_ = anyEmitters(in.lamps);
@@ -207,6 +215,7 @@ ProbeMaps Probes::update(gpu::PassList& f, const ViewInputs& in, std::span<const
             forDiffuse().irradiance.image(),
             distance_.image(),
             atlas_.image(),
+            settings.probes.parallax,
             block_};
 }
 

@@ -3,15 +3,14 @@
 #define REFLET_RENDERER_CAPTURE_PROBE_H
 
 #include "base/shared.h"
+#include "effects/probe/probes.h"
 #include "effects/view.h"
-#include "renderer/probe/probes.h"
 
 SHARED_BEGIN
 
 struct CaptureProbeParams {
     ViewParams view;
-    uint face;    // 6 · probe + its number
-    float blend;  // ProbesSettings
+    uint face;  // 6 · probe + its number
     ProbeBlock probes;
 };
 

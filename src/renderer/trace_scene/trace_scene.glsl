@@ -8,7 +8,7 @@
 #include "effects/lobe/rays.glsl"
 #include "effects/gbuffer/gbuffer.glsl"
 #include "effects/lamps.h"
-#include "renderer/probe/probes.h"
+#include "effects/probe/probes.h"
 #include "renderer/trace_scene/trace_scene.h"
 #include "shaders/cascades.glsl"
 #include "shaders/projection.glsl"
@@ -74,7 +74,7 @@ float sunMapVisibility(vec3 p, vec3 normal) {
 
 uint probeCount() { return probeBlock.count; }
 ProbeParams loadProbe(uint index) { return probeBlock.probes[index]; }
-#include "renderer/probe/probes.glsl"
+#include "effects/probe/probes.glsl"
 #include "renderer/trace_scene/scene_light.glsl"
 
 const uint rouletteStart = 4u;  // bounces before Russian roulette starts

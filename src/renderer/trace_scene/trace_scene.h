@@ -84,8 +84,8 @@ SHARED_END
 #include "effects/environment/environment_light.h"
 #include "effects/lamps.h"
 #include "effects/lobe/trace_screen.h"
+#include "effects/probe/probes.h"
 #include "gpu/pass_list.h"
-#include "renderer/probe/probes.h"
 #include "renderer/trace_scene/scene_rays.h"
 #include "renderer/trace_scene/scene_surfaces.h"
 

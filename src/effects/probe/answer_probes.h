@@ -1,16 +1,15 @@
 // Reflection probes as a ray source: an approximation of what the ray would hit. Shared by C++ and GLSL.
-#ifndef REFLET_RENDERER_ANSWER_PROBES_H
-#define REFLET_RENDERER_ANSWER_PROBES_H
+#ifndef REFLET_EFFECTS_ANSWER_PROBES_H
+#define REFLET_EFFECTS_ANSWER_PROBES_H
 
 #include "base/shared.h"
+#include "effects/probe/probes.h"
 #include "effects/view.h"
-#include "renderer/probe/probes.h"
 
 SHARED_BEGIN
 
 struct AnswerProbesParams {
     ViewParams view;
-    ProbesSettings settings;
     ProbeBlock probes;
     uint firstRay;
 };
@@ -26,7 +25,7 @@ namespace reflet {
 
 /// Gives rays that start in a probe's box its radiance, as far as the probe does not see the sky. The others stay in
 /// rays.waiting.
-void answerProbes(gpu::PassList& f, Rays& rays, const ProbeMaps& probes, const ProbesSettings& settings);
+void answerProbes(gpu::PassList& f, Rays& rays, const ProbeMaps& probes);
 
 }  // namespace reflet
 #endif

@@ -1,12 +1,12 @@
 // Records reflection probes as a ray source.
-#include "renderer/probe/answer_probes.h"
+#include "effects/probe/answer_probes.h"
 
 #include "effects/ambient_occlusion/ambient_occlusion.h"
 #include "gpu/context.h"
 
 namespace reflet {
 
-void answerProbes(gpu::PassList& f, Rays& rays, const ProbeMaps& probes, const ProbesSettings& settings) {
+void answerProbes(gpu::PassList& f, Rays& rays, const ProbeMaps& probes) {
     const gpu::BufferView missed = makeRayList(f, rays);
     const VkSampler trilinear =
         f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
@@ -15,18 +15,18 @@ void answerProbes(gpu::PassList& f, Rays& rays, const ProbeMaps& probes, const P
     bindAmbientOcclusion(f, pass, rays.from.ambientOcclusion, rays.from.scale)
         .constant("lobe", rays.lobe)
         .constant("spreads", rays.spreads ? 1U : 0U)
-        .constant("parallax", static_cast<uint32_t>(settings.parallax))
+        .constant("parallax", static_cast<uint32_t>(probes.parallax))
         .read("depth", rays.from.g.depth)
         .read("material", rays.from.g.material)
         .read("probeLobes", rays.lobe == lobeDiffuse ? probes.diffuse : probes.lobes, trilinear)
         .read("probeIrradiance", probes.irradiance)
-        .read("probeDistance", probes.distance)
+        .read("probeDistance", probes.distance ? probes.distance : probes.lobes)
         .read("direction", rays.direction)
         .read("waiting", rays.waiting)
         .write("answer", rays.answer)
         .write("source", rays.source)
         .write("missed", missed)
-        .params(AnswerProbesParams{rays.from.view, settings, probes.block, rays.firstRay})
+        .params(AnswerProbesParams{rays.from.view, probes.block, rays.firstRay})
         .dispatchIndirect(rays.waiting, 0);
     rays.waiting = missed;
 }

@@ -5,20 +5,21 @@
 #define REFLET_PROBES_GLSL
 
 #include "effects/cube_map/cube_map.glsl"
-#include "renderer/probe/probes.h"
+#include "effects/probe/probes.h"
 
-// 1 inside of the box, fading to 0 at `blend` metres outside. Walls lie on the box itself, so the fade is outside.
-float insideBox(ProbeParams probe, vec3 p, float blend) {
+// 1 inside of the box, fading to 0 outside of it over its blend distance, but at least leastBlend metres. Walls lie on the box itself, so the fade is outside.
+float insideBox(ProbeParams probe, vec3 p, float leastBlend) {
     vec3 outside = max(max(probe.boxMin - p, p - probe.boxMax), vec3(0.0));
     float rounding = 1e-3 * length(probe.boxMax - probe.boxMin);  // counts surfaces on the box as inside
-    return 1.0 - smoothstep(0.0, max(blend, rounding), length(outside));
+    return 1.0 - smoothstep(0.0, max(max(probe.blend, leastBlend), rounding), length(outside));
 }
 
-// Metres along the ray to the box's far side. For a point outside, the box is extended to the point.
+// Metres along the ray to the far side of the box that stands for the surroundings. For a point outside, the box is
+// extended to the point.
 float distanceToBox(ProbeParams probe, vec3 p, vec3 direction) {
     bvec3 along = lessThan(abs(direction), vec3(1e-6));  // sides parallel to the ray are never hit
     vec3 d = mix(direction, vec3(1.0), along);
-    vec3 far = max((min(probe.boxMin, p) - p) / d, (max(probe.boxMax, p) - p) / d);
+    vec3 far = max((min(probe.parallaxMin, p) - p) / d, (max(probe.parallaxMax, p) - p) / d);
     far = mix(far, vec3(1e6), along);
     return min(far.x, min(far.y, far.z));
 }
@@ -46,8 +47,8 @@ struct ProbeQuery {
     vec3 direction;    // unit
     float roughness;   // perceptual, of the lobe around the direction; 0: the exact direction
     bool hemisphere;   // instead: cosine-weighted hemisphere around the direction
-    uint parallax;     // ProbeParallax
-    float blend;       // metres
+    uint parallax;     // ProbeParallax, the most exact one of all probes, which each may lower
+    float blend;       // metres, at least, over which probes fade out
     float pick;        // 0..1: one probe answers, chosen by this number in proportion to the weights; -1: all do
 };
 
@@ -127,22 +128,23 @@ float inSightOf(uint i, vec3 fromProbe) {
 ProbePoint endOfRay(uint i, ProbeParams probe, ProbeQuery q) {
     vec3 start = q.origin - probe.position;
     ProbePoint point;
-    if (q.parallax == ProbeParallax_none) {
+    if (q.parallax == ProbeParallax_none || probe.parallax == ProbeParallax_none) {
         float seen = textureLod(probeDistance, vec4(q.direction, float(i)), 0.0).r;
         return ProbePoint(q.direction, seen > 0.0 ? 1.0 / seen : 0.0, 1.0);
     }
-    if (q.parallax == ProbeParallax_depth && marchProbe(i, start, q.direction, point)) {
+    bool marches = q.parallax == ProbeParallax_depth && probe.parallax == ProbeParallax_depth;
+    if (marches && marchProbe(i, start, q.direction, point)) {
         return point;
     }
     float t = distanceToBox(probe, q.origin, q.direction);
-    return ProbePoint(start + t * q.direction, t, q.parallax == ProbeParallax_depth ? uncertain : 1.0);
+    return ProbePoint(start + t * q.direction, t, marches ? uncertain : 1.0);
 }
 
 // Adds one probe's contribution.
 void sampleProbe(uint i, ProbeParams probe, ProbeQuery q, inout float share, inout vec4 radiance,
                  inout float hitDistance) {
     if (q.hemisphere) {
-        share *= q.parallax == ProbeParallax_depth ? inSightOf(i, q.origin - probe.position) : 1.0;
+        share *= q.parallax == ProbeParallax_depth && probe.parallax == ProbeParallax_depth ? inSightOf(i, q.origin - probe.position) : 1.0;
         vec4 seen = share * irradianceOfProbe(i, q.direction);
         radiance += seen;
         hitDistance += seen.a * distanceToBox(probe, q.origin, q.direction);

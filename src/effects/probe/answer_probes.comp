@@ -3,7 +3,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/lobe/rays.glsl"
-#include "renderer/probe/answer_probes.h"
+#include "effects/probe/answer_probes.h"
 #include "shaders/noise.glsl"
 #include "shaders/projection.glsl"
 
@@ -32,7 +32,7 @@ uniform sampler2D probeIrradiance;
 
 uint probeCount() { return params.probes.count; }
 ProbeParams loadProbe(uint index) { return params.probes.probes[index]; }
-#include "renderer/probe/probes.glsl"
+#include "effects/probe/probes.glsl"
 
 RayAnswer answerRay(ivec3 slot, Ray ray) {
     ivec2 pixel = slot.xy;
@@ -43,8 +43,7 @@ RayAnswer answerRay(ivec3 slot, Ray ray) {
     uint stream = params.firstRay + uint(slot.z) + hashPcg(params.view.seed + 11u);
     bool one = lobe == lobeDiffuse && !hemisphere;
     float pick = one ? hashToUnit(hashPixel(uvec2(pixel), stream, params.view.frame)) : -1.0;
-    ProbeQuery q = ProbeQuery(p, ray.direction, hemisphere ? 0.0 : ray.spread, hemisphere, parallax,
-                              params.settings.blend, pick);
+    ProbeQuery q = ProbeQuery(p, ray.direction, hemisphere ? 0.0 : ray.spread, hemisphere, parallax, 0.0, pick);
     float hitDistance;
     vec4 seen = sampleProbes(q, hitDistance);
     // Occlusion maps stand for nearby geometry that the rays could not hit.

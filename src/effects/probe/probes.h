@@ -1,8 +1,7 @@
-// Local reflection probes: cube maps captured in the scene from G-buffer and direct light, with parallax correction by
-// box projection (Lagarde and Zanuttini, Local Image-Based Lighting with Parallax-Corrected Cubemaps, SIGGRAPH 2012).
-// Shared by C++ and GLSL.
-#ifndef REFLET_RENDERER_PROBES_H
-#define REFLET_RENDERER_PROBES_H
+// Local reflection probes: cube maps of the light around a point, with parallax correction by box projection (Lagarde
+// and Zanuttini, Local Image-Based Lighting with Parallax-Corrected Cubemaps, SIGGRAPH 2012). Shared by C++ and GLSL.
+#ifndef REFLET_EFFECTS_PROBES_H
+#define REFLET_EFFECTS_PROBES_H
 
 #include "base/shared.h"
 #include "effects/view.h"
@@ -42,9 +41,15 @@ const uint maxProbes = 16;
 const uint probeFaces = 6;
 
 struct ProbeParams {
-    vec3 position;  // world space, inside the box
-    vec3 boxMin;
+    vec3 position;  // that its maps show the surroundings of; world space, inside the box
+    float blend;    // distance outside of the box over which it fades out [m]
+    vec3 boxMin;    // surfaces in it are lit by the probe
+    uint parallax;  // ProbeParallax; depth only where all passes bind distances
     vec3 boxMax;
+    float unused;      // 0
+    vec3 parallaxMin;  // the surroundings, for box projection; mostly the same box
+    float unused2;     // 0
+    vec3 parallaxMax;
 };
 
 struct ProbeBlock {
@@ -65,8 +70,10 @@ struct ProbeMaps {
     gpu::Image lobes;       ///< of CubeMap (cube_map.h): radiance · alpha; alpha: 1 surface, 0 sky
     gpu::Image diffuse;     ///< its first level, for diffuse rays: without what lamps stand for (lampEmitter)
     gpu::Image irradiance;  ///< of CubeMap, with alpha as well; as `diffuse`
-    gpu::Image distance;    ///< R32F cube array: 1 / metres from the probe, 0: sky
-    gpu::Image atlas;       ///< RGBA16F: the captured faces, a row of six per probe
+    gpu::Image
+        distance;      ///< R32F cube array: 1 / metres from the probe, 0: sky; none: no probe has ProbeParallax::depth
+    gpu::Image atlas;  ///< RGBA16F: the captured faces, a row of six per probe; of captured probes
+    ProbeParallax parallax = ProbeParallax::depth;  ///< the most exact one of the block
     ProbeBlock block{};
 
     explicit operator bool() const { return block.count > 0; }
