@@ -60,11 +60,15 @@ EnvironmentLight environmentLight(RefletView_T& view, const EnvironmentInputs& i
     return {own.texels.last(), own.cube.lobes.image(), own.cube.irradiance.image(), in.params};
 }
 
+LightBoundFrame boundFrame(const Frame& frame) {
+    const ViewParams& v = frame.context.view;
+    return {v.rest > 0, frame.change.light > 0.0F, v.exposureChange};
+}
+
 // How bright light of the host may be in this frame.
 LightBound& boundOf(RefletView_T& view, Frame& frame) {
     if (!frame.bound) {
-        frame.bound = lighting::boundLight(view.recorder, view.store->lightPeaks, frame.size,
-                                           frame.context.view.rest > 0, frame.change.light > 0.0F);
+        frame.bound = lighting::boundLight(view.recorder, view.store->lightPeaks, frame.size, boundFrame(frame));
     }
     return *frame.bound;
 }
@@ -81,8 +85,7 @@ gpu::Image hostRadiance(RefletView_T& view, const Settings& settings, LightBound
 // A host's radiance that has a history of its own.
 gpu::Image radianceWithHistory(RefletView_T& view, const Frame& frame, const Settings& settings, LightBoundStore& own,
                                gpu::Image given, bool keepAlpha) {
-    LightBound bound =
-        lighting::boundLight(view.recorder, own, given.size, frame.context.view.rest > 0, frame.change.light > 0.0F);
+    LightBound bound = lighting::boundLight(view.recorder, own, given.size, boundFrame(frame));
     return hostRadiance(view, settings, bound, given, keepAlpha);
 }
 
@@ -126,6 +129,7 @@ ScreenImages screenForLobe(RefletView_T& view, Frame& frame, const Settings& set
     gpu::PassList& f = view.recorder;
     noteEnvironment(view, lobe, environment);
     frame.context.environment = environmentLight(view, environment);
+    frame.context.environment.params.factor *= frame.preExposure;
     const lighting::ViewContext& context = contextOf(view, frame);
     f.release(frame.light);  // of the other lobe
     frame.light = hostRadiance(view, settings, boundOf(view, frame), light, false);
@@ -155,16 +159,6 @@ gpu::Image pictureSoFar(const Frame& frame) {
     return radiance;
 }
 
-// What the tone map is given: a host's picture, or the frame's.
-lighting::Light pictureToMap(const Frame& frame, gpu::Image given) {
-    if (given || !frame.defocused) {
-        return lightWith(frame, given ? given : pictureSoFar(frame));
-    }
-    lighting::Light light = lightWith(frame, frame.defocused);
-    light.sharp = frame.sharp;
-    return light;
-}
-
 void keepLobe(gpu::PassList& f, const std::optional<LobeLight>& lobe) {
     if (!lobe) {
         return;
@@ -176,18 +170,22 @@ void keepLobe(gpu::PassList& f, const std::optional<LobeLight>& lobe) {
     }
 }
 
-// Records what a call has listed. What later calls and the host may read stays for the rest of the frame.
+}  // namespace
+
 void finishCall(RefletView_T& view, const Frame& frame) {
     gpu::Recorder& f = view.recorder;
     const GBuffer& g = frame.g;
     for (const gpu::Image& image :
          {frame.shownDepth, frame.reactive, g.depth, g.normal, g.geometricNormal, g.baseColor, g.material, g.motion,
           g.reflectance, frame.backDepth, frame.pyramid, frame.light, frame.antialiased, frame.sharp, frame.defocused,
-          frame.circleOfConfusion, frame.sunVisibility, frame.ambientOcclusion, frame.display}) {
+          frame.circleOfConfusion, frame.sunVisibility, frame.ambientOcclusion, frame.exposure}) {
         f.keep(image);
     }
     for (uint32_t i = 0; i < frame.contactCount; ++i) {
         f.keep(frame.contacts[i]);
+    }
+    if (frame.display && !frame.display.state->external) {
+        f.keep(frame.display);
     }
     f.keep(frame.bound ? frame.bound->limits : gpu::Image{});
     keepLobe(f, frame.diffuse);
@@ -195,7 +193,14 @@ void finishCall(RefletView_T& view, const Frame& frame) {
     f.flush();
 }
 
-}  // namespace
+lighting::Light pictureToMap(RefletView_T& view, const Frame& frame, const Settings& settings, gpu::Image color) {
+    if (color || !frame.defocused) {
+        return lightWith(frame, color ? pictureOf(view, settings, color) : pictureSoFar(frame));
+    }
+    lighting::Light light = lightWith(frame, frame.defocused);
+    light.sharp = frame.sharp;
+    return light;
+}
 
 gpu::FrameSizes sizesOf(const RefletView_T& view, uvec2 before) {
     return {before, view.renderSize, view.size, lighting::rescaleHistory};
@@ -358,22 +363,6 @@ gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& 
     frame.circleOfConfusion = blurred.circleOfConfusion;
     finishCall(view, frame);
     return blurred.lit;
-}
-
-gpu::Image recordToneMap(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color, bool automatic) {
-    gpu::PassList& f = view.recorder;
-    const lighting::Light light = pictureToMap(frame, color ? pictureOf(view, settings, color) : gpu::Image{});
-    gpu::Image exposure;
-    if (automatic) {
-        if (!lighting::canMeter(light, frame)) {
-            failArgument(
-                "autoExposure: needs a picture of the view's size; color is larger, and refletComposite has not run");
-        }
-        exposure = lighting::exposure(f, view.store->exposure, settings, frame, light, frame.elapsed);
-    }
-    frame.display = lighting::display(f, settings, light.lit, exposure);
-    finishCall(view, frame);
-    return frame.display;
 }
 
 }  // namespace reflet::api

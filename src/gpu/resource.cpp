@@ -103,6 +103,7 @@ VkImage makeImage(Context& context, const ImageInfo& info, const std::string& na
     create.arrayLayers = info.layers;
     create.samples = VK_SAMPLE_COUNT_1_BIT;
     create.usage = info.usage;
+    context.share(create);
     ++context.counts().images;
     VkImage image = VK_NULL_HANDLE;
     vkCheck(context.vk.vkCreateImage(context.handle(), &create, context.allocator(), &image), "creating an image");
@@ -186,6 +187,7 @@ Buffer::Buffer(Context& context, VkDeviceSize size, VkBufferUsageFlags usage, Me
     VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     create.size = size;
     create.usage = usage;
+    context.share(create);
     ++context.counts().buffers;
     auto state = std::make_shared<BufferState>();
     state->id = nextResourceId();
