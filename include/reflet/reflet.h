@@ -101,7 +101,7 @@ typedef struct RefletMemoryCallbacks {
 typedef struct RefletContextInfo {
     size_t structSize;               /**< required: sizeof(RefletContextInfo) */
     uint32_t version;                /**< required: REFLET_VERSION */
-    VkInstance instance;             /**< required; Vulkan 1.3 */
+    VkInstance instance;             /**< required; Vulkan 1.3, or 1.2 with VK_KHR_synchronization2 */
     VkPhysicalDevice physicalDevice; /**< required */
     VkDevice device;                 /**< required; must outlive the context */
     /** Required. All other functions are looked up through it, into tables of the context's own. */
@@ -318,8 +318,8 @@ typedef enum RefletMotionKind {
 } RefletMotionKind;
 
 /**
- * All images have the view's size; with RefletFrameInfo::renderSize they may have any that is at least that, and their
- * top left rectangle of that size is read.
+ * All images have the view's size; with RefletFrameInfo::renderSize or RefletImage::offset they may have any that is at
+ * least that, and the rectangle of that size at the offset is read.
  */
 typedef struct RefletGBuffer {
     size_t structSize;           /**< required */
@@ -419,10 +419,10 @@ typedef struct RefletFrameInfo {
     const RefletGBuffer* gbuffer; /**< required; read in refletBeginFrame */
     /**
      * Dynamic resolution: width and height of this frame in pixels, 1 to the view's. The host has drawn the top left
-     * rectangle of that size of its images, all of the camera's picture in it; images may be larger. Results have that
-     * size, but those after refletTemporal, which have the output's. May be another one in every frame: histories go
-     * on, resampled, and no device memory is needed beyond that of the largest frame. Jitter counts in pixels of its
-     * own frame. 0, 0: the view's size, and images of just that.
+     * rectangle of that size of its images (RefletImage::offset), all of the camera's picture in it; images may be
+     * larger. Results have that size, but those after refletTemporal, which have the output's. May be another one in
+     * every frame: histories go on, resampled, and no device memory is needed beyond that of the largest frame. Jitter
+     * counts in pixels of its own frame. 0, 0: the view's size, and images of just that.
      */
     uint32_t renderSize[2];
     /**

@@ -156,6 +156,7 @@ void recordToneMap(RefletView_T& view, Frame& frame, const Settings& settings, c
     Settings own = settings;
     own.tonemap.exposure -= std::log2(frame.preExposure);
     frame.exposure = {};
+    frame.shownOn = in.target != nullptr ? *in.target : DisplayTarget{};
     if (in.target == nullptr) {
         frame.display = lighting::display(f, own, light.lit, measured);
     } else {

@@ -101,6 +101,7 @@ void note(RefletView_T& view, const RefletFrameInfo& info, const RefletGBuffer& 
         const RefletFrameInfo& before = view.described->info;
         now.frames = view.described->frames + 1;
         now.lastIndex = before.frameIndex;
+        now.lastPreExposure = before.preExposure != 0.0F ? before.preExposure : 1.0F;
         now.lastJitter = {before.jitter[0], before.jitter[1]};
     }
     view.described = now;

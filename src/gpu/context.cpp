@@ -14,15 +14,15 @@ F instanceFunction(const OpenDevice& open, const char* name) {
     const PFN_vkVoidFunction found = open.lookUp(open.instance, name);
     if (found == nullptr) {
         throw Unsupported(fmt::format(
-            "the Vulkan instance has no {}: it was created for a version below 1.3 (VkApplicationInfo::apiVersion)",
+            "the Vulkan instance has no {}: it was created for a version below 1.2 (VkApplicationInfo::apiVersion)",
             name));
     }
     return reinterpret_cast<F>(found);
 }
 
 void requireVersion(uint32_t version) {
-    if (version < VK_API_VERSION_1_3) {
-        throw Unsupported(fmt::format("the device has Vulkan {}.{}: 1.3 is needed", VK_API_VERSION_MAJOR(version),
+    if (version < VK_API_VERSION_1_2) {
+        throw Unsupported(fmt::format("the device has Vulkan {}.{}: 1.2 is needed", VK_API_VERSION_MAJOR(version),
                                       VK_API_VERSION_MINOR(version)));
     }
 }

@@ -19,7 +19,9 @@ uint32_t bytesPerTexel(VkFormat format) {
             return 1;
         case VK_FORMAT_R8G8B8A8_UNORM:
         case VK_FORMAT_R8G8B8A8_SRGB:
+        case VK_FORMAT_B8G8R8A8_UNORM:
         case VK_FORMAT_A2B10G10R10_UNORM_PACK32:
+        case VK_FORMAT_A2R10G10B10_UNORM_PACK32:
         case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
         case VK_FORMAT_R16G16_SFLOAT:
         case VK_FORMAT_R32_UINT:

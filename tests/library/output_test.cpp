@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <string>
 
 namespace reflet::test::output_test {
 namespace {
@@ -191,6 +193,78 @@ TEST_F(Output, FormatsShowTheSame) {
         EXPECT_NEAR(float(plain[i].x) / 255.0F, half[i].x, 0.003F);
         EXPECT_EQ(half[i].w, 1.0F);
     }
+}
+
+// Formats that shaders do not name, where the device has storage images of them.
+TEST_F(Output, FormatsWithOtherOrdersShowTheSame) {
+    const RefletImage color = host_.makeImage(VK_FORMAT_R32G32B32A32_SFLOAT, width, height,
+                                              std::vector<vec4>(size_t(width) * height, vec4(0.1F, 0.3F, 0.6F, 1.0F)));
+    RefletToneMapInfo info = toneMapOf(color);
+    const glm::u8vec4 plain = texelsOf<glm::u8vec4>(host_, toneMap(info).image).at(0);
+    for (const VkFormat format : {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_A2R10G10B10_UNORM_PACK32}) {
+        VkFormatProperties known{};
+        vkGetPhysicalDeviceFormatProperties(host_.host.device().physical, format, &known);
+        if ((known.optimalTilingFeatures & VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT) == 0) {
+            std::printf("no storage images of VkFormat %d\n", int(format));
+            continue;
+        }
+        info.format = format;
+        const uint32_t texel = texelsOf<uint32_t>(host_, toneMap(info).image).at(0);
+        const bool bytes = format == VK_FORMAT_B8G8R8A8_UNORM;
+        const uint32_t most = bytes ? 255 : 1023;
+        const glm::uvec3 blueFirst(texel & most, texel >> (bytes ? 8U : 10U) & most,
+                                   texel >> (bytes ? 16U : 20U) & most);
+        for (int channel = 0; channel < 3; ++channel) {
+            EXPECT_NEAR(float(blueFirst[2 - channel]) / float(most), float(plain[channel]) / 255.0F, 0.003F) << format;
+        }
+    }
+}
+
+TEST_F(Output, DescriptionTellsDisplayAndPreExposure) {
+    const RefletImage color = greys({0.1F});
+    RefletToneMapInfo info = toneMapOf(color);
+    info.transfer = REFLET_TRANSFER_PQ;
+    info.format = VK_FORMAT_R8G8B8A8_UNORM;
+    toneMap(info, 8.0F);
+    std::array<char, 8192> text{};
+    size_t size = text.size();
+    EXPECT_REFLET(refletDescribe(view_, &size, text.data()));
+    for (const char* part : {"pre-exposure: 8, 8 before", "display: PQ, R8G8B8A8_UNORM, white 203 nits, peak 1000 nits",
+                             "PQ in 8 bits shows bands"}) {
+        EXPECT_NE(std::string(text.data()).find(part), std::string::npos) << part << '\n' << text.data();
+    }
+}
+
+TEST_F(Output, PreparedToneMapsMakeNoPipelines) {
+    RefletImage output =
+        host_.makeImage(VK_FORMAT_R16G16B16A16_SFLOAT, width, height, std::vector<uint64_t>(size_t(width) * height));
+    const RefletImage color = greys({0.1F});
+    RefletToneMapInfo info = toneMapOf(color);
+    info.autoExposure = 1;
+    info.transfer = REFLET_TRANSFER_SCRGB;
+    const RefletFrameInfo frame = room_.frame(nullptr, 0);
+    RefletPrepareInfo prepare{};
+    prepare.structSize = sizeof prepare;
+    prepare.effects = REFLET_EFFECT_TONE_MAP;
+    prepare.gbuffer = frame.gbuffer;
+    prepare.toneMap = &info;
+    uint32_t remaining = 1;
+    EXPECT_REFLET(refletPrepare(view_, settings_, &prepare, 1000, &remaining));
+    info.output = &output;
+    info.format = VK_FORMAT_R8G8B8A8_UNORM;  // not read
+    EXPECT_REFLET(refletPrepare(view_, settings_, &prepare, 1000, &remaining));
+    EXPECT_EQ(remaining, 0U);
+    info.output = nullptr;
+    info.format = VK_FORMAT_UNDEFINED;
+    const uint64_t made = LibraryHost::made().pipelines;
+    toneMap(info);
+    EXPECT_EQ(LibraryHost::made().pipelines, made);
+    info.transfer = REFLET_TRANSFER_PQ;
+    toneMap(info);
+    EXPECT_EQ(LibraryHost::made().pipelines, made + 1) << "another one, which was not prepared";
+    prepare.toneMap = &info;
+    info.paperWhite = -1.0F;
+    EXPECT_EQ(refletPrepare(view_, settings_, &prepare, 1000, &remaining), REFLET_ERROR_INVALID_ARGUMENT);
 }
 
 TEST_F(Output, ExposureComesFromAnImageAndLeavesInOne) {
