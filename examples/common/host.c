@@ -130,12 +130,22 @@ static uint32_t memory_type(Host* h, uint32_t allowed, VkMemoryPropertyFlags wan
     exit(1);
 }
 
-static bool is_depth(VkFormat format) { return format == VK_FORMAT_D32_SFLOAT; }
+static VkImageAspectFlags aspect_of(VkFormat format) {
+    return format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
+}
 
-Picture make_picture(Host* h, uint32_t width, uint32_t height, VkFormat format, VkImageUsageFlags usage) {
-    Picture p = {.format = format, .width = width, .height = height, .usage = usage};
+static VkImageView view_of(Host* h, const Picture* p) {
+    const VkImageViewCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO, .image = p->image,
+        .viewType = VK_IMAGE_VIEW_TYPE_2D, .format = p->format, .subresourceRange = {aspect_of(p->format), 0, 1, p->layer, 1}};
+    VkImageView view;
+    check(vkCreateImageView(h->device, &info, NULL, &view), "vkCreateImageView");
+    return view;
+}
+
+Picture make_layers(Host* h, uint32_t width, uint32_t height, VkFormat format, VkImageUsageFlags usage, uint32_t layers) {
+    Picture p = {.format = format, .width = width, .height = height, .usage = usage, .layers = layers};
     const VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO, .imageType = VK_IMAGE_TYPE_2D,
-        .format = format, .extent = {width, height, 1}, .mipLevels = 1, .arrayLayers = 1,
+        .format = format, .extent = {width, height, 1}, .mipLevels = 1, .arrayLayers = layers,
         .samples = VK_SAMPLE_COUNT_1_BIT, .usage = usage};
     check(vkCreateImage(h->device, &info, NULL, &p.image), "vkCreateImage");
     VkMemoryRequirements needs;
@@ -144,17 +154,28 @@ Picture make_picture(Host* h, uint32_t width, uint32_t height, VkFormat format, 
         .memoryTypeIndex = memory_type(h, needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)};
     check(vkAllocateMemory(h->device, &memory, NULL, &p.memory), "vkAllocateMemory");
     check(vkBindImageMemory(h->device, p.image, p.memory, 0), "vkBindImageMemory");
-    const VkImageViewCreateInfo view = {.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO, .image = p.image,
-        .viewType = VK_IMAGE_VIEW_TYPE_2D, .format = format, .subresourceRange = {
-            is_depth(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1}};
-    check(vkCreateImageView(h->device, &view, NULL, &p.view), "vkCreateImageView");
+    p.view = view_of(h, &p);
     return p;
+}
+
+Picture make_picture(Host* h, uint32_t width, uint32_t height, VkFormat format, VkImageUsageFlags usage) {
+    return make_layers(h, width, height, format, usage, 1);
+}
+
+Picture layer_of(Host* h, const Picture* p, uint32_t layer) {
+    Picture one = *p;
+    one.layer = layer;
+    one.memory = VK_NULL_HANDLE;
+    one.view = view_of(h, &one);
+    return one;
 }
 
 void free_picture(Host* h, Picture* p) {
     vkDestroyImageView(h->device, p->view, NULL);
-    vkDestroyImage(h->device, p->image, NULL);
-    vkFreeMemory(h->device, p->memory, NULL);
+    if (p->memory != VK_NULL_HANDLE) { /* else it is a layer of another one */
+        vkDestroyImage(h->device, p->image, NULL);
+        vkFreeMemory(h->device, p->memory, NULL);
+    }
     *p = (Picture){0};
 }
 
@@ -199,8 +220,9 @@ static VkPipelineShaderStageCreateInfo stage_of(Host* h, VkShaderStageFlagBits s
     return made;
 }
 
+/* pass: VK_NULL_HANDLE: drawn by dynamic rendering. */
 static VkPipeline make_raster(Host* h, VkPipelineShaderStageCreateInfo* stages, uint32_t count, const VkFormat* colors,
-                              uint32_t color_count) {
+                              uint32_t color_count, VkRenderPass pass) {
     const VkPipelineVertexInputStateCreateInfo input = {.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO};
     const VkPipelineInputAssemblyStateCreateInfo triangles = {
         .sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO, .topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST};
@@ -220,14 +242,29 @@ static VkPipeline make_raster(Host* h, VkPipelineShaderStageCreateInfo* stages, 
         .dynamicStateCount = 2, .pDynamicStates = states};
     const VkPipelineRenderingCreateInfo targets = {.sType = VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO,
         .colorAttachmentCount = color_count, .pColorAttachmentFormats = colors, .depthAttachmentFormat = VK_FORMAT_D32_SFLOAT};
-    const VkGraphicsPipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, .pNext = &targets,
-        .stageCount = count, .pStages = stages, .pVertexInputState = &input, .pInputAssemblyState = &triangles,
+    const VkGraphicsPipelineCreateInfo info = {.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO, .renderPass = pass,
+        .pNext = pass == VK_NULL_HANDLE ? &targets : NULL, .stageCount = count, .pStages = stages, .pVertexInputState = &input, .pInputAssemblyState = &triangles,
         .pViewportState = &viewport, .pRasterizationState = &raster, .pMultisampleState = &samples,
         .pDepthStencilState = &depth, .pColorBlendState = &blend, .pDynamicState = &dynamic, .layout = h->layout};
     VkPipeline pipeline;
     check(vkCreateGraphicsPipelines(h->device, VK_NULL_HANDLE, 1, &info, NULL, &pipeline), "vkCreateGraphicsPipelines");
     for (uint32_t i = 0; i < count; ++i) vkDestroyShaderModule(h->device, stages[i].module, NULL);
     return pipeline;
+}
+
+static void make_raster_pipelines(Host* h, VkRenderPass room_pass, VkRenderPass sun_pass) {
+    const VkFormat colors[] = {VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_R16G16_SFLOAT};
+    VkPipelineShaderStageCreateInfo room[] = {stage_of(h, VK_SHADER_STAGE_VERTEX_BIT, room_vert, sizeof room_vert),
+                                              stage_of(h, VK_SHADER_STAGE_FRAGMENT_BIT, room_frag, sizeof room_frag)};
+    h->room = make_raster(h, room, 2, colors, 3, room_pass);
+    VkPipelineShaderStageCreateInfo sun = stage_of(h, VK_SHADER_STAGE_VERTEX_BIT, sun_vert, sizeof sun_vert);
+    h->sun = make_raster(h, &sun, 1, NULL, 0, sun_pass);
+}
+
+void host_use_render_passes(Host* h, VkRenderPass room, VkRenderPass sun) {
+    vkDestroyPipeline(h->device, h->room, NULL);
+    vkDestroyPipeline(h->device, h->sun, NULL);
+    make_raster_pipelines(h, room, sun);
 }
 
 static void make_pipelines(Host* h) {
@@ -247,12 +284,7 @@ static void make_pipelines(Host* h) {
     check(vkCreatePipelineLayout(h->device, &layout, NULL, &h->layout), "vkCreatePipelineLayout");
     layout.pSetLayouts = &h->light_set_layout;
     check(vkCreatePipelineLayout(h->device, &layout, NULL, &h->light_layout), "vkCreatePipelineLayout");
-    const VkFormat colors[] = {VK_FORMAT_R16G16B16A16_SFLOAT, VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_R16G16_SFLOAT};
-    VkPipelineShaderStageCreateInfo room[] = {stage_of(h, VK_SHADER_STAGE_VERTEX_BIT, room_vert, sizeof room_vert),
-                                              stage_of(h, VK_SHADER_STAGE_FRAGMENT_BIT, room_frag, sizeof room_frag)};
-    h->room = make_raster(h, room, 2, colors, 3);
-    VkPipelineShaderStageCreateInfo sun = stage_of(h, VK_SHADER_STAGE_VERTEX_BIT, sun_vert, sizeof sun_vert);
-    h->sun = make_raster(h, &sun, 1, NULL, 0);
+    make_raster_pipelines(h, VK_NULL_HANDLE, VK_NULL_HANDLE);
     const VkComputePipelineCreateInfo light = {.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO, .layout = h->light_layout,
         .stage = stage_of(h, VK_SHADER_STAGE_COMPUTE_BIT, light_comp, sizeof light_comp)};
     check(vkCreateComputePipelines(h->device, VK_NULL_HANDLE, 1, &light, NULL, &h->light), "vkCreateComputePipelines");
@@ -333,34 +365,56 @@ void host_open(Host* h, const char* const* instance_extensions, uint32_t instanc
     make_slots(h);
 }
 
-void host_close(Host* h) {
+void host_open_beside(Host* h, const Host* first) {
+    *h = *first;
+    const Picture none = {0};
+    h->depth = h->normal = h->color = h->motion = h->lit = h->sun_map = none;
+    make_slots(h);
+}
+
+void host_close_beside(Host* h) {
     for (uint32_t i = 0; i < FRAMES_IN_FLIGHT; ++i) vkDestroyFence(h->device, h->slots[i].fence, NULL);
+    vkDestroyDescriptorPool(h->device, h->sets, NULL);
+    vkDestroyCommandPool(h->device, h->pool, NULL);
+    vkDestroyBuffer(h->device, h->cameras, NULL);
+    vkFreeMemory(h->device, h->camera_memory, NULL);
+}
+
+void host_close(Host* h) {
     VkPipeline pipelines[] = {h->room, h->sun, h->light};
     for (int i = 0; i < 3; ++i) vkDestroyPipeline(h->device, pipelines[i], NULL);
     vkDestroyPipelineLayout(h->device, h->layout, NULL);
     vkDestroyPipelineLayout(h->device, h->light_layout, NULL);
     vkDestroyDescriptorSetLayout(h->device, h->set_layout, NULL);
     vkDestroyDescriptorSetLayout(h->device, h->light_set_layout, NULL);
-    vkDestroyDescriptorPool(h->device, h->sets, NULL);
-    vkDestroyCommandPool(h->device, h->pool, NULL);
     vkDestroySampler(h->device, h->sampler, NULL);
-    vkDestroyBuffer(h->device, h->cameras, NULL);
-    vkFreeMemory(h->device, h->camera_memory, NULL);
+    host_close_beside(h);
     vkDestroyDevice(h->device, NULL);
     vkDestroyInstance(h->instance, NULL);
 }
 
 /* ---- a frame ---- */
 
-void barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, VkImageLayout from, VkImageLayout to,
-             VkPipelineStageFlags2 source, VkAccessFlags2 written, VkPipelineStageFlags2 target, VkAccessFlags2 access) {
+static void layer_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, uint32_t layer, VkImageLayout from,
+                          VkImageLayout to, VkPipelineStageFlags2 source, VkAccessFlags2 written, VkPipelineStageFlags2 target,
+                          VkAccessFlags2 access) {
     const VkImageMemoryBarrier2 one = {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2, .srcStageMask = source,
         .srcAccessMask = written, .dstStageMask = target, .dstAccessMask = access, .oldLayout = from, .newLayout = to,
         .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED, .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED, .image = image,
-        .subresourceRange = {aspect, 0, 1, 0, 1}};
+        .subresourceRange = {aspect, 0, 1, layer, 1}};
     const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1,
         .pImageMemoryBarriers = &one};
     vkCmdPipelineBarrier2(commands, &info);
+}
+
+void barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, VkImageLayout from, VkImageLayout to,
+             VkPipelineStageFlags2 source, VkAccessFlags2 written, VkPipelineStageFlags2 target, VkAccessFlags2 access) {
+    layer_barrier(commands, image, aspect, 0, from, to, source, written, target, access);
+}
+
+void picture_barrier(VkCommandBuffer commands, const Picture* p, VkImageLayout from, VkImageLayout to, VkPipelineStageFlags2 source,
+                     VkAccessFlags2 written, VkPipelineStageFlags2 target, VkAccessFlags2 access) {
+    layer_barrier(commands, p->image, aspect_of(p->format), p->layer, from, to, source, written, target, access);
 }
 
 Slot* host_begin(Host* h) {
@@ -372,35 +426,41 @@ Slot* host_begin(Host* h) {
     return slot;
 }
 
+void host_draw_boxes(Host* h, Slot* slot, VkPipeline pipeline, uint32_t width, uint32_t height) {
+    const VkViewport viewport = {0, 0, (float)width, (float)height, 0, 1};
+    const VkRect2D all = {{0, 0}, {width, height}};
+    vkCmdSetViewport(slot->commands, 0, 1, &viewport);
+    vkCmdSetScissor(slot->commands, 0, 1, &all);
+    vkCmdBindPipeline(slot->commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
+    vkCmdBindDescriptorSets(slot->commands, VK_PIPELINE_BIND_POINT_GRAPHICS, h->layout, 0, 1, &slot->set, 0, NULL);
+    vkCmdDraw(slot->commands, 36, 8, 0, 0);
+}
+
 static void draw_boxes(Host* h, Slot* slot, VkPipeline pipeline, const Picture* depth, const VkRenderingAttachmentInfo* colors,
                        uint32_t count) {
     const VkPipelineStageFlags2 tests = VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT;
     const VkAccessFlags2 tested = VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
-    barrier(slot->commands, depth->image, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
-            VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, tests | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, tested, tests, tested);
+    picture_barrier(slot->commands, depth, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
+                    tests | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, tested, tests, tested);
     const VkRenderingAttachmentInfo depth_target = {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
         .imageView = depth->view, .imageLayout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
         .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR, .storeOp = VK_ATTACHMENT_STORE_OP_STORE, .clearValue = {.depthStencil = {1.0F, 0}}};
     const VkRenderingInfo info = {.sType = VK_STRUCTURE_TYPE_RENDERING_INFO, .renderArea = {{0, 0}, {depth->width, depth->height}},
         .layerCount = 1, .colorAttachmentCount = count, .pColorAttachments = colors, .pDepthAttachment = &depth_target};
     vkCmdBeginRendering(slot->commands, &info);
-    const VkViewport viewport = {0, 0, (float)depth->width, (float)depth->height, 0, 1};
-    vkCmdSetViewport(slot->commands, 0, 1, &viewport);
-    vkCmdSetScissor(slot->commands, 0, 1, &info.renderArea);
-    vkCmdBindPipeline(slot->commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-    vkCmdBindDescriptorSets(slot->commands, VK_PIPELINE_BIND_POINT_GRAPHICS, h->layout, 0, 1, &slot->set, 0, NULL);
-    vkCmdDraw(slot->commands, 36, 8, 0, 0);
+    host_draw_boxes(h, slot, pipeline, depth->width, depth->height);
     vkCmdEndRendering(slot->commands);
 }
 
+void host_upload(Host* h, Slot* slot, const Camera* c) { memcpy(h->mapped_cameras + 1024 * (size_t)(slot - h->slots), c, sizeof *c); }
+
 void host_draw(Host* h, Slot* slot, const Camera* c) {
-    memcpy(h->mapped_cameras + 1024 * (size_t)(slot - h->slots), c, sizeof *c);
+    host_upload(h, slot, c);
     draw_boxes(h, slot, h->sun, &h->sun_map, NULL, 0);
     const Picture* targets[] = {&h->normal, &h->color, &h->motion};
     VkRenderingAttachmentInfo colors[3];
     for (int i = 0; i < 3; ++i) {
-        barrier(slot->commands, targets[i]->image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
-                VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+        picture_barrier(slot->commands, targets[i], VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
                 VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                 VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
                 VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT);
@@ -413,19 +473,23 @@ void host_draw(Host* h, Slot* slot, const Camera* c) {
 
 void host_light(Host* h, Slot* slot, VkImageView visibility) {
     const VkPipelineStageFlags2 compute = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-    const VkImageLayout read = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-    barrier(slot->commands, h->depth.image, VK_IMAGE_ASPECT_DEPTH_BIT, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, read,
-            VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT, compute,
-            VK_ACCESS_2_SHADER_SAMPLED_READ_BIT);
-    const Picture* sampled[] = {&h->depth, &h->normal, &h->color};
-    for (int i = 1; i < 3; ++i) {
-        barrier(slot->commands, sampled[i]->image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, read,
-                VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, compute,
-                VK_ACCESS_2_SHADER_SAMPLED_READ_BIT);
+    const bool readable = h->readable_color != VK_IMAGE_LAYOUT_UNDEFINED;
+    const VkImageLayout read = readable ? h->readable_color : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    const VkImageLayout read_depth = readable ? h->readable_depth : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    const Picture* sampled[] = {&h->normal, &h->color};
+    for (int i = 0; i < 2 && !readable; ++i) {
+        picture_barrier(slot->commands, sampled[i], VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, read,
+                        VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT, compute,
+                        VK_ACCESS_2_SHADER_SAMPLED_READ_BIT);
     }
-    barrier(slot->commands, h->lit.image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, compute,
-            VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
-    VkDescriptorImageInfo images[5] = {{h->sampler, h->depth.view, read}, {h->sampler, h->normal.view, read},
+    if (!readable) {
+        picture_barrier(slot->commands, &h->depth, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, read_depth,
+                        VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT, compute,
+                        VK_ACCESS_2_SHADER_SAMPLED_READ_BIT);
+    }
+    picture_barrier(slot->commands, &h->lit, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, compute,
+                    VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, compute, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+    VkDescriptorImageInfo images[5] = {{h->sampler, h->depth.view, read_depth}, {h->sampler, h->normal.view, read},
         {h->sampler, h->color.view, read}, {h->sampler, visibility, VK_IMAGE_LAYOUT_GENERAL},
         {VK_NULL_HANDLE, h->lit.view, VK_IMAGE_LAYOUT_GENERAL}};
     VkWriteDescriptorSet writes[5];

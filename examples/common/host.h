@@ -15,6 +15,7 @@ typedef struct Picture {
     VkFormat format;
     uint32_t width, height;
     VkImageUsageFlags usage;
+    uint32_t layer, layers; /* that the view shows; of the image */
 } Picture;
 
 /* As std140 in room.glsl. */
@@ -51,6 +52,9 @@ typedef struct Host {
     uint32_t width, height, frame;
     uint32_t rest; /* frames since anything moved: here only the camera can */
     Picture depth, normal, color, motion, lit, sun_map;
+    /* How draws leave targets: readable by compute shaders in these layouts, without further barriers. UNDEFINED: as
+     * attachments. */
+    VkImageLayout readable_color, readable_depth;
     float view_to_clip[16]; /* without jitter */
 } Host;
 
@@ -60,8 +64,16 @@ void host_open(Host* h, const char* const* instance_extensions, uint32_t instanc
                const char* const* device_extensions, uint32_t device_extension_count);
 void host_make_targets(Host* h, uint32_t width, uint32_t height);
 void host_free_targets(Host* h);
+/* Another host of the same device, with pictures, command buffers and cameras of its own: a second eye. Closed before the first. */
+void host_open_beside(Host* h, const Host* first);
+void host_close_beside(Host* h);
+/* Room and sun are drawn in render passes that are compatible with these. */
+void host_use_render_passes(Host* h, VkRenderPass room, VkRenderPass sun);
 void host_close(Host* h);
 Picture make_picture(Host* h, uint32_t width, uint32_t height, VkFormat format, VkImageUsageFlags usage);
+/* An image of several layers, as its first one; and another layer of it, of which only the view is its own. */
+Picture make_layers(Host* h, uint32_t width, uint32_t height, VkFormat format, VkImageUsageFlags usage, uint32_t layers);
+Picture layer_of(Host* h, const Picture* p, uint32_t layer);
 void free_picture(Host* h, Picture* p);
 VkDeviceMemory bind_buffer(Host* h, VkBuffer buffer, VkMemoryPropertyFlags properties);
 
@@ -69,6 +81,9 @@ VkDeviceMemory bind_buffer(Host* h, VkBuffer buffer, VkMemoryPropertyFlags prope
 Slot* host_begin(Host* h);
 /* Fills the camera of this frame; jitter in pixels, right and down. */
 void host_camera(Host* h, Camera* c, const Camera* before, const float jitter[2], float angle);
+/* Uploads the camera; draws the boxes into the rectangle, for hosts with render passes of their own. */
+void host_upload(Host* h, Slot* slot, const Camera* c);
+void host_draw_boxes(Host* h, Slot* slot, VkPipeline pipeline, uint32_t width, uint32_t height);
 /* Draws shadow map and G-buffer; all are left in attachment layouts. */
 void host_draw(Host* h, Slot* slot, const Camera* c);
 /* Lights the G-buffer into `lit`, in the layout GENERAL. visibility: of the sun, in the layout GENERAL. */
@@ -89,6 +104,9 @@ void record_download(const Download* d, VkCommandBuffer commands, VkImage image,
 /* After the device has finished: writes a PPM file, and frees the buffer. */
 void write_download(Host* h, Download* d, const char* path);
 
+/* Of a picture's layer. */
+void picture_barrier(VkCommandBuffer commands, const Picture* p, VkImageLayout from, VkImageLayout to, VkPipelineStageFlags2 source,
+                     VkAccessFlags2 written, VkPipelineStageFlags2 target, VkAccessFlags2 access);
 void barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, VkImageLayout from, VkImageLayout to,
              VkPipelineStageFlags2 source, VkAccessFlags2 written, VkPipelineStageFlags2 target, VkAccessFlags2 access);
 

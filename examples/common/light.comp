@@ -12,7 +12,7 @@ layout(set = 0, binding = 5, rgba16f) uniform writeonly image2D lit;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(pixel, imageSize(lit)))) return;
+    if (any(greaterThanEqual(pixel, textureSize(sun_visibility, 0)))) return;  // of the frame's size; images may be larger
     vec3 radiance = camera.sky.rgb;
     if (texelFetch(depth, pixel, 0).r < 1.0) {
         vec3 n = texelFetch(normal_smoothness, pixel, 0).xyz * mat3(camera.world_to_view);

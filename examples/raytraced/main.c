@@ -5,12 +5,8 @@
  *
  * usage: reflet_raytraced_example [OUT.ppm [screen]]      screen: without the host's rays
  */
-#include "host.h"
+#include "effects.h"
 
-#include <reflet/reflet.h>
-
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { WIDTH = 640, HEIGHT = 360, FRAMES = 32, LOBES = 2 };
@@ -18,13 +14,6 @@ enum { WIDTH = 640, HEIGHT = 360, FRAMES = 32, LOBES = 2 };
 static const uint32_t answer_comp[] =
 #include "answer.comp.inc"
     ;
-
-static void reflet_check(RefletResult result) {
-    if (result != REFLET_SUCCESS) {
-        fprintf(stderr, "%s: %s\n", refletResultName(result), refletLastError());
-        exit(1);
-    }
-}
 
 /* The host's ray tracing: a compute pass that reads rays and writes answers. */
 typedef struct Tracer {
@@ -117,99 +106,15 @@ static void lobe_of(Host* h, Slot* slot, RefletView view, RefletSettings setting
     reflet_check(refletAnswerRays(view, settings, kind, &answers, lobe));
 }
 
-/* A host's image: where it is, in which layout, and what wrote it last. */
-static RefletImage given(const Picture* p, VkImageLayout layout, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
-    const RefletImage image = {.image = p->image, .view = p->view, .format = p->format, .width = p->width, .height = p->height,
-                               .layout = layout, .stages = stages, .access = access};
-    return image;
-}
-
-static RefletImage given_target(const Picture* p) {
-    return given(p, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
-                 VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT);
-}
-
-static RefletImage given_depth(const Picture* p) {
-    return given(p, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-                 VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT);
-}
-
-static RefletGBuffer gbuffer_of(const Host* h) {
-    RefletGBuffer g;
-    memset(&g, 0, sizeof g);
-    g.structSize = sizeof g;
-    g.depth = given_depth(&h->depth);
-    g.depthKind = REFLET_DEPTH_STANDARD;
-    g.normal = given_target(&h->normal);
-    g.normalKind = REFLET_NORMAL_VECTOR_SNORM;
-    g.normalsInViewSpace = 1;
-    g.roughness = g.normal;
-    g.roughnessChannel = 3;
-    g.roughnessKind = REFLET_ROUGHNESS_SMOOTHNESS;
-    g.baseColor = given_target(&h->color);
-    g.metallic = g.baseColor;
-    g.metallicChannel = 3;
-    g.motion = given_target(&h->motion);
-    g.motionKind = REFLET_MOTION_NDC;
-    return g;
-}
-
-/* Records the frame's effects; returns the finished picture. */
-static RefletImage record_effects(Host* h, Slot* slot, RefletView view, RefletSettings settings, Tracer* tracer, const Camera* now,
-                                  const Camera* before, const float jitter[2], const float previous_jitter[2]) {
-    RefletFrameInfo frame;
-    memset(&frame, 0, sizeof frame);
-    frame.structSize = sizeof frame;
-    frame.commandBuffer = slot->commands;
-    frame.frameIndex = h->frame;
-    frame.restFrames = h->rest;
-    memcpy(frame.worldToView, now->world_to_view, sizeof frame.worldToView);
-    memcpy(frame.viewToClip, h->view_to_clip, sizeof frame.viewToClip);
-    memcpy(frame.previousWorldToView, before->world_to_view, sizeof frame.worldToView);
-    memcpy(frame.previousViewToClip, h->view_to_clip, sizeof frame.viewToClip);
-    memcpy(frame.jitter, jitter, sizeof frame.jitter);
-    memcpy(frame.previousJitter, previous_jitter, sizeof frame.previousJitter);
-    const RefletGBuffer gbuffer = gbuffer_of(h);
-    frame.gbuffer = &gbuffer;
-    reflet_check(refletBeginFrame(view, &frame));
-
-    RefletSunShadow sun;
-    memset(&sun, 0, sizeof sun);
-    sun.structSize = sizeof sun;
-    sun.map = given_depth(&h->sun_map);
-    sun.depthKind = REFLET_DEPTH_STANDARD;
-    sun.cascades = 1;
-    memcpy(sun.worldToClip[0], now->world_to_sun, sizeof sun.worldToClip[0]);
-    memcpy(sun.toSun, now->to_sun, sizeof sun.toSun);
-    sun.angularDiameter = 0.03F;
-    RefletImage visibility;
-    reflet_check(refletSunShadow(view, settings, &sun, &visibility));
-    /* The host's own pass reads the result: a barrier from what wrote it. */
-    barrier(slot->commands, visibility.image, VK_IMAGE_ASPECT_COLOR_BIT, visibility.layout, VK_IMAGE_LAYOUT_GENERAL,
-            visibility.stages, visibility.access, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT);
-    host_light(h, slot, visibility.view);
-
-    RefletIndirectLight light;
-    memset(&light, 0, sizeof light);
-    light.structSize = sizeof light;
-    light.light = given(&h->lit, VK_IMAGE_LAYOUT_GENERAL, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                        VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+static RefletImage record_traced(Host* h, Slot* slot, RefletView view, RefletSettings settings, Tracer* tracer, const Frame* frame) {
+    begin_effects(h, slot, view, frame);
     RefletEnvironment environment;
-    memset(&environment, 0, sizeof environment);
-    environment.structSize = sizeof environment;
-    memcpy(environment.factor, now->sky, sizeof environment.factor);
-    light.environment = &environment;
+    RefletIndirectLight light = light_room(h, slot, view, settings, frame->now, &environment);
     RefletLobe diffuse = {.structSize = sizeof diffuse}, specular = {.structSize = sizeof specular};
     lobe_of(h, slot, view, settings, tracer, REFLET_LOBE_DIFFUSE, &light, &diffuse);
     light.light.stages = 0; /* no longer new */
     lobe_of(h, slot, view, settings, tracer, REFLET_LOBE_SPECULAR, &light, &specular);
-    RefletComposite sum = {.structSize = sizeof sum};
-    reflet_check(refletComposite(view, settings, NULL, &sum));
-    RefletImage mean, display;
-    reflet_check(refletTemporal(view, settings, NULL, &mean));
-    reflet_check(refletToneMap(view, settings, NULL, 0, &display));
-    reflet_check(refletEndFrame(view));
-    return display;
+    return finish_effects(view, settings);
 }
 
 int main(int count, char** arguments) {
@@ -221,27 +126,19 @@ int main(int count, char** arguments) {
     Tracer tracer = make_tracer(&h);
     Download download = make_download(&h, WIDTH, HEIGHT);
 
-    RefletContextInfo info = {.structSize = sizeof info, .version = REFLET_VERSION, .instance = h.instance,
-        .physicalDevice = h.physical, .device = h.device, .getInstanceProcAddr = vkGetInstanceProcAddr, .enabledFeatures = &h.features};
-    RefletContext context;
-    reflet_check(refletCreateContext(&info, &context));
+    RefletContext context = make_context(&h);
     const RefletViewInfo view_info = {sizeof view_info, WIDTH, HEIGHT, FRAMES_IN_FLIGHT, 0, 0};
     RefletView view;
     reflet_check(refletCreateView(context, &view_info, &view));
     RefletSettings settings;
     reflet_check(refletCreateSettings("balanced", &settings));
 
-    Camera cameras[2];
-    float jitters[2][2] = {{0.0F, 0.0F}, {0.0F, 0.0F}};
+    Path camera_path = {0};
     for (uint32_t i = 0; i < FRAMES; ++i) {
-        Camera* now = &cameras[i % 2];
-        Camera* before = i > 0 ? &cameras[(i + 1) % 2] : now;
         Slot* slot = host_begin(&h);
-        refletJitter(i, jitters[i % 2]);
-        host_camera(&h, now, i > 0 ? before : NULL, jitters[i % 2], 0.35F);
-        host_draw(&h, slot, now);
-        const RefletImage picture = record_effects(&h, slot, view, settings, screen ? NULL : &tracer, now, before, jitters[i % 2],
-                                                   jitters[(i + (i > 0)) % 2]);
+        const Frame frame = next_frame(&h, &camera_path, 0.35F);
+        host_draw(&h, slot, frame.now);
+        const RefletImage picture = record_traced(&h, slot, view, settings, screen ? NULL : &tracer, &frame);
         if (i + 1 == FRAMES) record_download(&download, slot->commands, picture.image, picture.stages, picture.access);
         host_submit(&h, slot);
     }

@@ -101,7 +101,7 @@ typedef struct RefletMemoryCallbacks {
 typedef struct RefletContextInfo {
     size_t structSize;               /**< required: sizeof(RefletContextInfo) */
     uint32_t version;                /**< required: REFLET_VERSION */
-    VkInstance instance;             /**< required; Vulkan 1.3 */
+    VkInstance instance;             /**< required; Vulkan 1.3, or 1.2 with VK_KHR_synchronization2 */
     VkPhysicalDevice physicalDevice; /**< required */
     VkDevice device;                 /**< required; must outlive the context */
     /** Required. All other functions are looked up through it, into tables of the context's own. */
@@ -110,7 +110,7 @@ typedef struct RefletContextInfo {
      * Required: what the device was created with, as a device cannot be asked. The chain may hold
      * VkPhysicalDeviceVulkan12Features and VkPhysicalDeviceVulkan13Features, or the structs of single features.
      * Needed: shaderStorageImageExtendedFormats, imageCubeArray, scalarBlockLayout, synchronization2.
-     * Used if enabled: samplerAnisotropy.
+     * Used if enabled: samplerAnisotropy, shaderStorageImageWriteWithoutFormat (RefletToneMapInfo::format).
      */
     const VkPhysicalDeviceFeatures2* enabledFeatures;
     /** Extensions that were enabled, of instance and device. Used: VK_EXT_debug_utils, for names and labels. */
@@ -129,6 +129,13 @@ typedef struct RefletContextInfo {
     /** Called with the text of every error; NULL: none. */
     void (*log)(void* user, RefletResult result, const char* text);
     void* logUser; /**< passed to log */
+    /**
+     * Families of the queues that the library's commands are executed on, if there are several (asynchronous compute):
+     * its images and buffers are then shared by them (VK_SHARING_MODE_CONCURRENT), which may cost bandwidth. None: one
+     * family, whichever it is.
+     */
+    const uint32_t* queueFamilies;
+    uint32_t queueFamilyCount; /**< of queueFamilies */
 } RefletContextInfo;
 
 /** Makes a context. On failure *context is NULL. Records nothing, makes no pipelines. */
@@ -267,7 +274,13 @@ typedef struct RefletImage {
     VkAccessFlags2 access; /**< with which they wrote it */
     uint32_t baseLayer;    /**< that the view shows, such as an eye's; barriers name no other */
     uint32_t baseLevel;    /**< that the view shows; barriers name no other */
-    uint32_t reserved[6];  /**< 0 */
+    /**
+     * Pixels from the left and from the top to the rectangle that is read or written, which has the size of the frame,
+     * or of the output where that is asked for. Not 0, 0: width and height may be larger than it. Must be 0, 0 in
+     * images that are read as a whole: shadow maps, environments, exposures.
+     */
+    uint32_t offset[2];
+    uint32_t reserved[4]; /**< 0 */
 } RefletImage;
 
 typedef enum RefletDepthKind {
@@ -305,8 +318,8 @@ typedef enum RefletMotionKind {
 } RefletMotionKind;
 
 /**
- * All images have the view's size; with RefletFrameInfo::renderSize they may have any that is at least that, and their
- * top left rectangle of that size is read.
+ * All images have the view's size; with RefletFrameInfo::renderSize or RefletImage::offset they may have any that is at
+ * least that, and the rectangle of that size at the offset is read.
  */
 typedef struct RefletGBuffer {
     size_t structSize;           /**< required */
@@ -406,12 +419,19 @@ typedef struct RefletFrameInfo {
     const RefletGBuffer* gbuffer; /**< required; read in refletBeginFrame */
     /**
      * Dynamic resolution: width and height of this frame in pixels, 1 to the view's. The host has drawn the top left
-     * rectangle of that size of its images, all of the camera's picture in it; images may be larger. Results have that
-     * size, but those after refletTemporal, which have the output's. May be another one in every frame: histories go
-     * on, resampled, and no device memory is needed beyond that of the largest frame. Jitter counts in pixels of its
-     * own frame. 0, 0: the view's size, and images of just that.
+     * rectangle of that size of its images (RefletImage::offset), all of the camera's picture in it; images may be
+     * larger. Results have that size, but those after refletTemporal, which have the output's. May be another one in
+     * every frame: histories go on, resampled, and no device memory is needed beyond that of the largest frame. Jitter
+     * counts in pixels of its own frame. 0, 0: the view's size, and images of just that.
      */
     uint32_t renderSize[2];
+    /**
+     * Pre-exposure: the factor by which the host has multiplied all radiance of this frame, so that half floats hold
+     * it: `light`, `color`, `noisy`, answers to rays. Results are multiplied by it, too. May be another one in every
+     * frame: what the library remembers follows. RefletEnvironment is given without it, and tone maps take it away
+     * before they expose. 1e-8 to 1e8; 0: 1.
+     */
+    float preExposure;
 } RefletFrameInfo;
 
 /**
@@ -419,6 +439,19 @@ typedef struct RefletFrameInfo {
  * Effectiveness of Quasirandom Sequences, 2018).
  */
 REFLET_API void refletJitter(uint32_t frameIndex, float jitter[2]);
+
+/**
+ * Later calls on the view, refletEndFrame among them, record into this command buffer: so that shadows, say, go to
+ * another queue, or a thread has a buffer of its own. Recording, outside of a render pass, for a queue with compute,
+ * and of a family of RefletContextInfo::queueFamilies if that is not the one of the frame's. Between refletBeginFrame,
+ * whose RefletFrameInfo::commandBuffer is the first, and refletEndFrame.
+ *
+ * The device must execute a view's calls in their order: buffers of one queue are submitted in that order, and between
+ * two queues the host puts a semaphore (or the same for a command buffer that was used before). Each buffer has the
+ * barriers for what the library itself has recorded before. Images of the host need a layout and stages that the
+ * buffer's queue knows.
+ */
+REFLET_API RefletResult refletUseCommandBuffer(RefletView view, VkCommandBuffer commandBuffer);
 
 /**
  * Starts a frame, and records the import of the G-buffer into the view's own images; the host's images are free to be
@@ -758,6 +791,66 @@ REFLET_API RefletResult refletDepthOfField(RefletView view, RefletSettings setti
 REFLET_API RefletResult refletToneMap(RefletView view, RefletSettings settings, const RefletImage* color,
                                       uint32_t autoExposure, RefletImage* display);
 
+/** How a display takes colours. */
+typedef enum RefletTransfer {
+    /** The sRGB curve (of `tonemap.curve=gamma22`: a power of 2.2), Rec. 709 primaries; 1 is the display's white. */
+    REFLET_TRANSFER_SRGB = 0,
+    /** Linear, 1: 80 nits, Rec. 709 primaries (IEC 61966-2-2): VK_COLOR_SPACE_EXTENDED_SRGB_LINEAR_EXT. */
+    REFLET_TRANSFER_SCRGB = 1,
+    /** SMPTE ST 2084 (PQ), 1: 10000 nits, Rec. 2020 primaries: VK_COLOR_SPACE_HDR10_ST2084_EXT. */
+    REFLET_TRANSFER_PQ = 2,
+    REFLET_TRANSFER_MAX_ENUM = 0x7FFFFFFF /**< no value: lets any int be refused */
+} RefletTransfer;
+
+/** A tone map, and where it goes. */
+typedef struct RefletToneMapInfo {
+    size_t structSize;        /**< required */
+    const RefletImage* color; /**< as in refletToneMap */
+    uint32_t autoExposure;    /**< as in refletToneMap; not together with `exposure` */
+    /**
+     * 1x1, a float format: its first channel is the factor on radiance without pre-exposure; 2^`tonemap.exposure` is
+     * another. What is not above 0, or not finite, counts as 1. NULL: none.
+     */
+    const RefletImage* exposure;
+    /**
+     * The host's image, which is written: of the output's size at least, with VK_IMAGE_USAGE_STORAGE_BIT, of a format
+     * of `format`. `layout` may be VK_IMAGE_LAYOUT_UNDEFINED: its content is lost, and it is left in
+     * VK_IMAGE_LAYOUT_GENERAL; another is restored. `stages`: that used it last. NULL: an image of the library's.
+     */
+    const RefletImage* output;
+    /**
+     * Of the library's own image: VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_A2B10G10R10_UNORM_PACK32,
+     * VK_FORMAT_R16G16B16A16_SFLOAT; with shaderStorageImageWriteWithoutFormat also VK_FORMAT_B8G8R8A8_UNORM and
+     * VK_FORMAT_A2R10G10B10_UNORM_PACK32. Formats of sRGB cannot be written by shaders: give `output` with a view of
+     * the UNORM format (VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT). VK_FORMAT_UNDEFINED: the first, of `transfer` sRGB; the
+     * second, of PQ; the third, of scRGB, which needs it. Not read with `output`.
+     */
+    VkFormat format;
+    RefletTransfer transfer;
+    /**
+     * Of scRGB and PQ: luminance of what sRGB shows as white, 1 to 10000 nits; 0: 203 (ITU-R BT.2408). With
+     * `tonemap.curve=neutral` what is brighter goes on to peakLuminance, srgb and gamma22 clip there; aces and agx end
+     * at white.
+     */
+    float paperWhite;
+    float peakLuminance; /**< the display's: paperWhite to 10000 nits; 0: 1000, or paperWhite if that is more */
+} RefletToneMapInfo;
+
+/** Results of refletToneMapTo. */
+typedef struct RefletDisplay {
+    size_t structSize; /**< set by the host, too */
+    RefletImage image; /**< for the display; with RefletToneMapInfo::output that, as it was left; alpha 1 */
+    /**
+     * 1x1, R32_SFLOAT: the factor on radiance without pre-exposure, of autoExposure: what the host may pre-expose the
+     * next frame by. Absent without autoExposure.
+     */
+    RefletImage exposure;
+} RefletDisplay;
+
+/** As refletToneMap, for all displays, into the host's image, and with the host's exposure. */
+REFLET_API RefletResult refletToneMapTo(RefletView view, RefletSettings settings, const RefletToneMapInfo* info,
+                                        RefletDisplay* display);
+
 /* ------------------------------------------------------------------------------------------------ missed rays --- */
 /*
  * Between the screen and the environment a host can answer rays by its own means: ray tracing, distance fields, probes.
@@ -894,6 +987,9 @@ typedef struct RefletPrepareInfo {
     const RefletIndirectLight* light;
     uint32_t lampMapSide;  /**< of refletLampShadows: texels of the largest map or face; 0: 512 */
     uint32_t lampMapTiles; /**< of all lamps: 1 of a 2D map, 6 of a cube; 0: 7 */
+    /** As in the frames to come, of which autoExposure is read here, too; NULL: refletToneMap. Handles as of gbuffer.
+     */
+    const RefletToneMapInfo* toneMap;
 } RefletPrepareInfo;
 
 /**
@@ -929,7 +1025,7 @@ REFLET_API RefletResult refletPassTimes(RefletView view, uint32_t* count, Reflet
 
 /**
  * An intermediate image of the current frame: depth, normal, geometric_normal, base_color, material, motion, pyramid,
- * light, sun_visibility, lamp_visibility, ambient_occlusion, diffuse, specular, diffuse_confidence,
+ * light, sun_visibility, lamp_visibility, ambient_occlusion, exposure, diffuse, specular, diffuse_confidence,
  * specular_confidence. The error lists what there is.
  */
 REFLET_API RefletResult refletFindImage(RefletView view, const char* name, RefletImage* image);

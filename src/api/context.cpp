@@ -2,6 +2,7 @@
 #include "api/calls.h"
 #include "api/handles.h"
 #include "api/live.h"
+#include "api/queues.h"
 
 #include <algorithm>
 #include <array>
@@ -83,11 +84,14 @@ gpu::OpenDevice openDevice(const RefletContextInfo& info) {
         }
     }
     requireFeatures(*info.enabledFeatures);
-    gpu::OpenDevice open{.instance = info.instance,
-                         .physical = info.physicalDevice,
-                         .device = info.device,
-                         .lookUp = info.getInstanceProcAddr,
-                         .samplerAnisotropy = info.enabledFeatures->features.samplerAnisotropy != VK_FALSE};
+    gpu::OpenDevice open{
+        .instance = info.instance,
+        .physical = info.physicalDevice,
+        .device = info.device,
+        .lookUp = info.getInstanceProcAddr,
+        .samplerAnisotropy = info.enabledFeatures->features.samplerAnisotropy != VK_FALSE,
+        .queueFamilies = queueFamiliesOf(info),
+        .writesWithoutFormat = info.enabledFeatures->features.shaderStorageImageWriteWithoutFormat != VK_FALSE};
     if (info.enabledExtensionCount > 0 && info.enabledExtensions == nullptr) {
         failArgument("RefletContextInfo.enabledExtensions: is NULL, and enabledExtensionCount is {}",
                      info.enabledExtensionCount);
@@ -139,7 +143,7 @@ void requireVersion(uint32_t version) {
 }
 
 RefletResult logged(const RefletContextInfo* info, RefletResult result) {
-    if (result != REFLET_SUCCESS && info != nullptr && info->structSize >= sizeof(RefletContextInfo) &&
+    if (result != REFLET_SUCCESS && info != nullptr && info->structSize >= offsetof(RefletContextInfo, queueFamilies) &&
         info->log != nullptr) {
         info->log(info->logUser, result, lastError().c_str());
     }
@@ -220,7 +224,7 @@ RefletResult refletCreateContext(const RefletContextInfo* info, RefletContext* c
         if (context == nullptr) {
             failArgument("context: is NULL");
         }
-        const RefletContextInfo given = adopted(info, "RefletContextInfo");
+        const RefletContextInfo given = adopted(info, "RefletContextInfo", offsetof(RefletContextInfo, queueFamilies));
         requireVersion(given.version);
         auto made = std::make_unique<RefletContext_T>();
         made->gpu = std::make_unique<gpu::Context>(openDevice(given));

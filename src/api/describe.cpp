@@ -24,6 +24,9 @@ std::string imageText(const RefletImage& image, const char* absent) {
         return absent;
     }
     std::string text = fmt::format("{} {}x{}", formatText(image.format), image.width, image.height);
+    if (image.offset[0] > 0 || image.offset[1] > 0) {
+        text += fmt::format(" from ({}, {})", image.offset[0], image.offset[1]);
+    }
     if (image.baseLayer > 0) {
         text += fmt::format(", layer {}", image.baseLayer);
     }
@@ -106,6 +109,24 @@ void describeSurfaces(Lines& lines, const RefletGBuffer& g) {
                                 channelText(g.reactive, g.reactiveChannel, "0 to 1", "none"));
 }
 
+std::string displayText(const Frame& frame) {
+    if (!frame.display) {
+        return "none so far";
+    }
+    constexpr const char* names[] = {"sRGB", "scRGB", "PQ"};
+    const DisplayTarget& on = *frame.shownOn;
+    std::string text = fmt::format("{}, {}", names[on.transfer], formatText(frame.display.format));
+    if (on.transfer != transferSrgb) {
+        text += fmt::format(", white {:g} nits, peak {:g} nits", on.paperWhite, on.peakNits);
+    }
+    return on.image ? text + ", in the host's image" : text;
+}
+
+bool isPqInBytes(const Frame& frame) {
+    return frame.display && frame.shownOn->transfer == transferPq &&
+           formatText(frame.display.format).find("8") == 1;  // R8…, B8…
+}
+
 bool isSnorm(VkFormat format) {
     const std::string name = formatText(format);
     return name.find("SNORM") != std::string::npos;
@@ -115,7 +136,7 @@ bool isUnorm(VkFormat format) {
 }
 
 // What can hardly be meant.
-Lines contradictions(const Described& d, const ViewParams& v) {
+Lines contradictions(const Described& d, const ViewParams& v, const Frame& frame) {
     const RefletFrameInfo& info = d.info;
     const RefletGBuffer& g = d.gbuffer;
     const bool first = std::ranges::all_of(info.previousViewToClip, [](float value) { return value == 0.0F; });
@@ -137,7 +158,8 @@ Lines contradictions(const Described& d, const ViewParams& v) {
         {d.frames > 0 && info.jitter[0] == 0.0F && info.jitter[1] == 0.0F && v.size != vec2(d.outputSize),
          "there is no jitter, which temporal upscaling needs"},
         {d.frames > 0 && (info.previousJitter[0] != d.lastJitter[0] || info.previousJitter[1] != d.lastJitter[1]),
-         "previousJitter is not the jitter of the last frame"}};
+         "previousJitter is not the jitter of the last frame"},
+        {isPqInBytes(frame), "PQ in 8 bits shows bands: use A2B10G10R10_UNORM_PACK32 or R16G16B16A16_SFLOAT"}};
     Lines found;
     for (const auto& [holds, text] : rules) {
         if (holds) {
@@ -165,6 +187,8 @@ std::string describe(const RefletView_T& view) {
     lines.push_back(fmt::format("jitter: ({:.3f}, {:.3f}) pixels right and down, ({:.3f}, {:.3f}) before",
                                 info.jitter[0], info.jitter[1], info.previousJitter[0], info.previousJitter[1]));
     describeSurfaces(lines, d.gbuffer);
+    lines.push_back(fmt::format("pre-exposure: {:g}, {:g} before; display: {}", frame.preExposure,
+                                d.frames > 0 ? d.lastPreExposure : frame.preExposure, displayText(frame)));
     const std::pair<bool, const char*> effects[] = {{bool(frame.sunVisibility), "sun shadow"},
                                                     {bool(frame.lampVisibility), "lamp shadows"},
                                                     {bool(frame.ambientOcclusion), "ambient occlusion"},
@@ -185,7 +209,7 @@ std::string describe(const RefletView_T& view) {
                                 static_cast<double>(view.owner.gpu->memory().read(view.memory)) * 1e-6));
     lines.push_back(fmt::format("light of the host: {} probes, {} planar views, {} image for rays without a hit",
                                 frame.probes, frame.planarViews, frame.hasFallback ? "an" : "no"));
-    const Lines wrong = contradictions(d, v);
+    const Lines wrong = contradictions(d, v, frame);
     lines.push_back(fmt::format("contradictions: {}",
                                 wrong.empty() ? std::string("none found") : fmt::format("{}", fmt::join(wrong, "; "))));
     return fmt::format("{}\n", fmt::join(lines, "\n"));

@@ -210,14 +210,3 @@ RefletResult refletDepthOfField(RefletView view, RefletSettings settings, const 
                                                colorOf(color, host, {outputSizeOf(*view), frame.inLarger})));
     });
 }
-
-RefletResult refletToneMap(RefletView view, RefletSettings settings, const RefletImage* color, uint32_t autoExposure,
-                           RefletImage* display) {
-    return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
-        checkOut(display, "display");
-        checkBoolean(autoExposure, "autoExposure");
-        HostImages host(*view);
-        *display = resultOf(recordToneMap(
-            *view, frame, values, colorOf(color, host, {outputSizeOf(*view), frame.inLarger}), autoExposure != 0));
-    });
-}

@@ -30,11 +30,15 @@ gpu::History litOf(RefletView_T& view, Frame& frame) {
     return frame.lit;
 }
 
+LightBoundFrame boundFrame(const Frame& frame) {
+    const ViewParams& v = frame.context.view;
+    return {v.rest > 0, frame.change.light > 0.0F, v.exposureChange};
+}
+
 // How bright light of the host may be in this frame.
 LightBound& boundOf(RefletView_T& view, Frame& frame) {
     if (!frame.bound) {
-        frame.bound = lighting::boundLight(view.recorder, view.store->lightPeaks, frame.size,
-                                           frame.context.view.rest > 0, frame.change.light > 0.0F);
+        frame.bound = lighting::boundLight(view.recorder, view.store->lightPeaks, frame.size, boundFrame(frame));
     }
     return *frame.bound;
 }
@@ -51,8 +55,7 @@ gpu::Image hostRadiance(RefletView_T& view, const Settings& settings, LightBound
 // A host's radiance that has a history of its own.
 gpu::Image radianceWithHistory(RefletView_T& view, const Frame& frame, const Settings& settings, LightBoundStore& own,
                                gpu::Image given, bool keepAlpha) {
-    LightBound bound =
-        lighting::boundLight(view.recorder, own, given.size, frame.context.view.rest > 0, frame.change.light > 0.0F);
+    LightBound bound = lighting::boundLight(view.recorder, own, given.size, boundFrame(frame));
     return hostRadiance(view, settings, bound, given, keepAlpha);
 }
 
@@ -74,6 +77,7 @@ ScreenImages screenForLobe(RefletView_T& view, Frame& frame, const Settings& set
     gpu::PassList& f = view.recorder;
     noteEnvironment(view, lobe, in.environment);
     frame.context.environment = environmentLight(view, in.environment);
+    frame.context.environment.params.factor *= frame.preExposure;
     const lighting::ViewContext& context = contextOf(view, frame);
     f.release(frame.light);  // of the other lobe
     frame.light = hostRadiance(view, settings, boundOf(view, frame), in.light, false);
@@ -101,16 +105,6 @@ gpu::Image pictureSoFar(const Frame& frame) {
         failArgument("color: is NULL, and neither refletTemporal nor refletComposite has run in this frame");
     }
     return radiance;
-}
-
-// What the tone map is given: a host's picture, or the frame's.
-lighting::Light pictureToMap(const Frame& frame, gpu::Image given) {
-    if (given || !frame.defocused) {
-        return lightWith(frame, given ? given : pictureSoFar(frame));
-    }
-    lighting::Light light = lightWith(frame, frame.defocused);
-    light.sharp = frame.sharp;
-    return light;
 }
 
 void keepLobe(gpu::PassList& f, const std::optional<LobeLight>& lobe) {
@@ -156,16 +150,28 @@ void finishCall(RefletView_T& view, const Frame& frame) {
                                     frame.sunVisibility,
                                     frame.lampVisibility,
                                     frame.ambientOcclusion,
-                                    frame.display}) {
+                                    frame.exposure}) {
         f.keep(image);
     }
     for (uint32_t i = 0; i < frame.contactCount; ++i) {
         f.keep(frame.contacts[i]);
     }
+    if (frame.display && !frame.display.state->external) {
+        f.keep(frame.display);
+    }
     f.keep(frame.bound ? frame.bound->limits : gpu::Image{});
     keepLobe(f, frame.diffuse);
     keepLobe(f, frame.specular);
     f.flush();
+}
+
+lighting::Light pictureToMap(RefletView_T& view, const Frame& frame, const Settings& settings, gpu::Image color) {
+    if (color || !frame.defocused) {
+        return lightWith(frame, color ? pictureOf(view, settings, color) : pictureSoFar(frame));
+    }
+    lighting::Light light = lightWith(frame, frame.defocused);
+    light.sharp = frame.sharp;
+    return light;
 }
 
 gpu::FrameSizes sizesOf(const RefletView_T& view, uvec2 before) {
@@ -335,22 +341,6 @@ gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& 
     frame.circleOfConfusion = blurred.circleOfConfusion;
     finishCall(view, frame);
     return blurred.lit;
-}
-
-gpu::Image recordToneMap(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color, bool automatic) {
-    gpu::PassList& f = view.recorder;
-    const lighting::Light light = pictureToMap(frame, color ? pictureOf(view, settings, color) : gpu::Image{});
-    gpu::Image exposure;
-    if (automatic) {
-        if (!lighting::canMeter(light, frame)) {
-            failArgument(
-                "autoExposure: needs a picture of the view's size; color is larger, and refletComposite has not run");
-        }
-        exposure = lighting::exposure(f, view.store->exposure, settings, frame, light, frame.elapsed);
-    }
-    frame.display = lighting::display(f, settings, light.lit, exposure);
-    finishCall(view, frame);
-    return frame.display;
 }
 
 }  // namespace reflet::api

@@ -24,14 +24,16 @@ Settings settingsOfFrame(const RefletView_T& view, const Settings& settings, con
 /// In place of a number of channels: depth.
 constexpr uint32_t depthChannel = 0;
 
-/// What is read of an image of the host: its top left rectangle of this size.
+/// What is read of an image of the host: the rectangle of this size at RefletImage::offset.
 struct Rectangle {
-    uvec2 size{0};          ///< 0: all of the image
+    uvec2 size{0};          ///< 0: all of the image, which has no offset
     bool inLarger = false;  ///< the image may be larger
 };
 
 /// Throws Failure if an image cannot be sampled, has another size or lacks channels. name: of the field.
 void checkImage(const RefletImage& image, const char* name, const Rectangle& read, uint32_t channels);
+/// The same for one that is written.
+void checkOutput(const RefletImage& image, const char* name, uvec2 size);
 
 /// Whether it has a depth aspect.
 bool isDepthFormat(VkFormat format);
@@ -46,6 +48,10 @@ public:
 
     /// None for an absent one. size: of what is read of it; 0: all. layers, levels: that its view has.
     gpu::Image add(const RefletImage& image, uvec2 size, uint32_t layers = 1, uint32_t levels = 1);
+    /// One that passes write, in VK_IMAGE_LAYOUT_GENERAL. size: of what is written of it.
+    gpu::Image addOutput(const RefletImage& image, uvec2 size);
+    /// As the host finds it once this has ended.
+    [[nodiscard]] static RefletImage left(const RefletImage& output);
     /// Records the barriers of all images added so far.
     void acquire();
 
@@ -54,7 +60,10 @@ private:
         RefletImage image;
         uint32_t layers;
         uint32_t levels;
+        bool written = false;
     };
+
+    gpu::Image adopt(const RefletImage& image, uvec2 size, VkImageLayout layout);
 
     RefletView_T& view_;
     std::vector<Given> images_;
@@ -126,6 +135,21 @@ gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& sett
 /// color: none: what was antialiased, or composited.
 gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& settings, const Lens& lens,
                               gpu::Image color);
-gpu::Image recordToneMap(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color, bool automatic);
+
+/// Records what a call has listed. What later calls and the host may read stays for the rest of the frame.
+void finishCall(RefletView_T& view, const Frame& frame);
+/// What the tone map is given: a host's picture, or the frame's.
+lighting::Light pictureToMap(RefletView_T& view, const Frame& frame, const Settings& settings, gpu::Image color);
+
+struct DisplayInputs {
+    gpu::Image color;                       ///< none: the frame's picture
+    bool automatic = false;                 ///< exposure is measured
+    gpu::Image exposure;                    ///< of the host, 1x1; none: that of the settings
+    const DisplayTarget* target = nullptr;  ///< NULL: sRGB in an RGBA8 image of this frame
+};
+
+/// Where a tone map goes, without the image of the host. Throws Failure. The image it makes or takes is of its format.
+DisplayTarget displayTarget(const RefletView_T& view, const RefletToneMapInfo& info);
+void recordToneMap(RefletView_T& view, Frame& frame, const Settings& settings, const DisplayInputs& in);
 
 }  // namespace reflet::api

@@ -103,6 +103,9 @@ struct Frame : lighting::Surfaces {
     std::array<gpu::Image, REFLET_MAX_CONTACT_LIGHTS> contacts;  ///< of refletContactShadows, in order
     uint32_t contactCount = 0;
     gpu::Image display;
+    gpu::Image exposure;                   ///< as a factor; none if nobody asked for it
+    float preExposure = 1.0F;              ///< RefletFrameInfo::preExposure
+    std::optional<DisplayTarget> shownOn;  ///< of the last tone map
     std::optional<LobeLight> diffuse;
     std::optional<LobeLight> specular;
     std::optional<lighting::PendingLobe> pending;  ///< whose rays wait for the host's answers
@@ -123,6 +126,7 @@ struct Described {
     RefletFrameInfo info{};
     RefletGBuffer gbuffer{};
     uvec2 outputSize{0};
+    float lastPreExposure = 1.0F;
     uint64_t frames = 0;  ///< before it
     uint32_t lastIndex = 0;
     std::array<float, 2> lastJitter{};
@@ -153,5 +157,6 @@ struct RefletView_T {
     std::optional<reflet::api::Frame> last;          ///< that has ended, for refletFindImage
     std::deque<reflet::gpu::ImageState> hostImages;  ///< of the current frame; elements stay where they are
     std::optional<reflet::api::Described> described;
+    float preExposure = 1.0F;   ///< of the current or last frame
     bool composedLast = false;  ///< whether the last frame wrote ViewStore::lit
 };

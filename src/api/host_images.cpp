@@ -154,36 +154,36 @@ VkAccessFlags2 accessIn(VkImageLayout layout) {
     }
 }
 
-}  // namespace
-
-bool isDepthFormat(VkFormat format) {
-    return format >= VK_FORMAT_D16_UNORM && format <= VK_FORMAT_D32_SFLOAT_S8_UINT && format != VK_FORMAT_S8_UINT;
-}
-
-void checkImage(const RefletImage& image, const char* name, const Rectangle& read, uint32_t channels) {
+// Where it is, and which rectangle of it is used.
+void checkPlace(const RefletImage& image, const char* name, const Rectangle& used) {
     if (image.view == VK_NULL_HANDLE) {
         failArgument("{}.view: is VK_NULL_HANDLE", name);
     }
-    checkFormat(image.format, name, channels);
     if (image.width < 1 || image.height < 1) {
         failArgument("{}.width, height: are {}x{}", name, image.width, image.height);
     }
-    const uvec2 size = read.size;
-    if (read.inLarger && (image.width < size.x || image.height < size.y)) {
+    const uvec2 size = used.size;
+    const uvec2 offset(image.offset[0], image.offset[1]);
+    const bool moved = offset != uvec2(0);
+    if (moved && size == uvec2(0)) {
+        failArgument("{}.offset: is ({}, {}); must be 0, as all of the image is read", name, offset.x, offset.y);
+    }
+    if (moved && (image.width < size.x || image.height < size.y || offset.x > image.width - size.x ||
+                  offset.y > image.height - size.y || offset.x > UINT16_MAX || offset.y > UINT16_MAX)) {
+        failArgument("{}.offset: is ({}, {}); from there a rectangle of {}x{} does not fit into {}x{}", name, offset.x,
+                     offset.y, size.x, size.y, image.width, image.height);
+    }
+    if (used.inLarger && (image.width < size.x || image.height < size.y)) {
         failArgument(
-            "{}.width, height: are {}x{}, smaller than the rectangle of {}x{} that is read "
+            "{}.width, height: are {}x{}, smaller than the rectangle of {}x{} that is used "
             "(RefletFrameInfo.renderSize)",
             name, image.width, image.height, size.x, size.y);
     }
-    if (!read.inLarger && size.x > 0 && (image.width != size.x || image.height != size.y)) {
+    if (!moved && !used.inLarger && size.x > 0 && (image.width != size.x || image.height != size.y)) {
         failArgument(
             "{}.width, height: are {}x{}, and the view is {}x{}; call refletResizeView, give images of its size, or "
-            "say in RefletFrameInfo.renderSize which rectangle is drawn",
+            "say in RefletFrameInfo.renderSize or RefletImage.offset which rectangle is drawn",
             name, image.width, image.height, size.x, size.y);
-    }
-    if (!isKnown(image.layout)) {
-        failArgument("{}.layout: is VkImageLayout {}, which has nothing that shaders can sample", name,
-                     static_cast<int>(image.layout));
     }
     if (image.baseLevel > 15) {
         failArgument("{}.baseLevel: is {}; images have at most 16", name, image.baseLevel);
@@ -193,15 +193,53 @@ void checkImage(const RefletImage& image, const char* name, const Rectangle& rea
     }
 }
 
+VkImageLayout layoutLeft(const RefletImage& output) {
+    return output.layout == VK_IMAGE_LAYOUT_UNDEFINED ? VK_IMAGE_LAYOUT_GENERAL : output.layout;
+}
+
+}  // namespace
+
+bool isDepthFormat(VkFormat format) {
+    return format >= VK_FORMAT_D16_UNORM && format <= VK_FORMAT_D32_SFLOAT_S8_UINT && format != VK_FORMAT_S8_UINT;
+}
+
+void checkImage(const RefletImage& image, const char* name, const Rectangle& read, uint32_t channels) {
+    checkFormat(image.format, name, channels);
+    checkPlace(image, name, read);
+    if (!isKnown(image.layout)) {
+        failArgument("{}.layout: is VkImageLayout {}, which has nothing that shaders can sample", name,
+                     static_cast<int>(image.layout));
+    }
+}
+
+void checkOutput(const RefletImage& image, const char* name, uvec2 size) {
+    if (image.image == VK_NULL_HANDLE) {
+        failArgument("{}.image: is VK_NULL_HANDLE; pass NULL for an image of the library's", name);
+    }
+    checkPlace(image, name, {size, true});
+    if (image.layout != VK_IMAGE_LAYOUT_UNDEFINED && !isKnown(image.layout)) {
+        failArgument("{}.layout: is VkImageLayout {}; give the layout it is in, or VK_IMAGE_LAYOUT_UNDEFINED", name,
+                     static_cast<int>(image.layout));
+    }
+}
+
+gpu::Image HostImages::adopt(const RefletImage& image, uvec2 size, VkImageLayout layout) {
+    gpu::ImageState& state = view_.hostImages.emplace_back();
+    state.image = image.image;
+    state.view = image.view;
+    state.layout = layout;
+    state.origin = {image.offset[0], image.offset[1]};
+    state.external = true;
+    return {&state, -1, image.format, size.x > 0 ? size : uvec2(image.width, image.height), 1, 1};
+}
+
 gpu::Image HostImages::add(const RefletImage& image, uvec2 size, uint32_t layers, uint32_t levels) {
     if (image.image == VK_NULL_HANDLE) {
         return {};
     }
-    gpu::ImageState& state = view_.hostImages.emplace_back();
-    state.image = image.image;
-    state.view = image.view;
-    state.layout = sampledLayout(image);
-    state.external = true;
+    if (image.image == VK_NULL_HANDLE) {
+        return {};
+    }
     // One image may be given for several fields: it gets one barrier.
     const auto known = std::ranges::find_if(images_, [&](const Given& i) {
         return i.image.image == image.image && i.image.baseLayer == image.baseLayer &&
@@ -215,13 +253,26 @@ gpu::Image HostImages::add(const RefletImage& image, uvec2 size, uint32_t layers
         known->layers = std::max(known->layers, layers);
         known->levels = std::max(known->levels, levels);
     }
-    return {&state, -1, image.format, size.x > 0 ? size : uvec2(image.width, image.height), 1, 1};
+    return adopt(image, size, sampledLayout(image));
+}
+
+gpu::Image HostImages::addOutput(const RefletImage& image, uvec2 size) {
+    images_.push_back({image, 1, true});
+    return adopt(image, size, VK_IMAGE_LAYOUT_GENERAL);
+}
+
+RefletImage HostImages::left(const RefletImage& output) {
+    RefletImage now = output;
+    now.layout = layoutLeft(output);
+    now.stages = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    now.access = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+    return now;
 }
 
 void HostImages::acquire() {
     std::vector<VkImageMemoryBarrier2> barriers;
-    for (const auto& [image, layers, levels] : images_) {
-        const bool moves = !isSampledIn(image.layout);
+    for (const auto& [image, layers, levels, written] : images_) {
+        const bool moves = written ? image.layout != VK_IMAGE_LAYOUT_GENERAL : !isSampledIn(image.layout);
         if (image.stages == 0 && !moves) {
             continue;
         }
@@ -229,21 +280,23 @@ void HostImages::acquire() {
         barrier.srcStageMask = image.stages != 0 ? image.stages : VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
         barrier.srcAccessMask = image.access;
         barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-        barrier.dstAccessMask = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
+        barrier.dstAccessMask = written ? VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT : VK_ACCESS_2_SHADER_SAMPLED_READ_BIT;
         barrier.oldLayout = image.layout;
-        barrier.newLayout = sampledLayout(image);
+        barrier.newLayout = written ? VK_IMAGE_LAYOUT_GENERAL : sampledLayout(image);
         barriers.push_back(barrier);
     }
     back_.reserve(images_.size());
     record(view_, barriers);
-    // Later writes of the host wait for the reads, and find the layout that they left.
-    for (const auto& [image, layers, levels] : images_) {
+    // Later commands of the host wait for the reads and writes, and find the layout that they left.
+    for (const auto& [image, layers, levels, written] : images_) {
+        const VkImageLayout layout = written ? layoutLeft(image) : image.layout;
         VkImageMemoryBarrier2 barrier = barrierOf(image, layers, levels);
         barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+        barrier.srcAccessMask = written ? VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT : VK_ACCESS_2_NONE;
         barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-        barrier.dstAccessMask = accessIn(image.layout);
-        barrier.oldLayout = sampledLayout(image);
-        barrier.newLayout = image.layout;
+        barrier.dstAccessMask = accessIn(layout);
+        barrier.oldLayout = written ? VK_IMAGE_LAYOUT_GENERAL : sampledLayout(image);
+        barrier.newLayout = layout;
         back_.push_back(barrier);
     }
 }

@@ -24,12 +24,13 @@ EnvironmentInputs environmentInputs(const RefletEnvironment& environment, HostIm
     return in;
 }
 
-void checkEnvironment(const RefletEnvironment& environment) {
+void checkEnvironment(const RefletEnvironment& environment, float preExposure) {
     for (int i = 0; i < 3; ++i) {
-        constexpr float most = 65504.0F;
+        const float most = 65504.0F / preExposure;
         if (!(environment.factor[i] >= 0.0F && environment.factor[i] <= most)) {
-            failArgument("RefletEnvironment.factor[{}]: is {}; must be 0 to {}, as images are half floats", i,
-                         environment.factor[i], most);
+            failArgument(
+                "RefletEnvironment.factor[{}]: is {}; must be 0 to {} (65504 / preExposure), as images are half floats",
+                i, environment.factor[i], most);
         }
     }
     if (!std::isfinite(environment.rotation)) {
@@ -73,7 +74,7 @@ LightInputs lightInputs(const Frame& frame, const RefletIndirectLight* light, Ho
     const RefletEnvironment around = given.environment != nullptr
                                          ? adopted(given.environment, "RefletIndirectLight.environment")
                                          : RefletEnvironment{};
-    checkEnvironment(around);
+    checkEnvironment(around, frame.preExposure);
     const LightInputs in{host.add(given.light, frame.size), environmentInputs(around, host),
                          sourceInputs(frame, given, host)};
     host.acquire();

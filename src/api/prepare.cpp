@@ -176,6 +176,22 @@ void prepareLobes(RefletView_T& view, Frame& frame, const Settings& settings, co
     }
 }
 
+void prepareToneMap(RefletView_T& view, Frame& frame, const Settings& settings, const RefletPrepareInfo& info,
+                    DisplayInputs in, StandIns& standIns) {
+    DisplayTarget target;
+    if (info.toneMap != nullptr) {
+        const RefletToneMapInfo& to = *info.toneMap;
+        target = displayTarget(view, to);
+        if (to.output != nullptr) {
+            target.image = standIns.make(outputSizeOf(view));
+            target.image.format = target.format;
+        }
+        in.exposure = to.exposure != nullptr && !in.automatic ? standIns.make(uvec2(1)) : gpu::Image{};
+        in.target = &target;
+    }
+    recordToneMap(view, frame, settings, in);
+}
+
 // The first frame of a view, which has passes that later ones lack.
 void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrepareInfo& info, const FrameKind& kind) {
     StandIns standIns(view);
@@ -220,7 +236,8 @@ void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrep
     }
     if (asked(REFLET_EFFECT_TONE_MAP)) {
         const bool meters = info.autoExposure != 0 && (composes || outputSizeOf(view) == view.renderSize);
-        recordToneMap(view, frame, settings, pictureOr(outputSizeOf(view)), meters);
+        prepareToneMap(view, frame, settings, info, {.color = pictureOr(outputSizeOf(view)), .automatic = meters},
+                       standIns);
     }
     if (info.changesSize != 0) {
         recordRescaling(view);
@@ -287,6 +304,7 @@ std::vector<Named> imagesOf(const Frame& frame) {
             {"sun_visibility", frame.sunVisibility},
             {"lamp_visibility", frame.lampVisibility},
             {"ambient_occlusion", frame.ambientOcclusion},
+            {"exposure", frame.exposure},
             {"circle_of_confusion", frame.circleOfConfusion},
             {"diffuse", radiance(frame.diffuse)},
             {"specular", radiance(frame.specular)},
@@ -313,6 +331,12 @@ RefletResult refletPrepare(RefletView view, RefletSettings settings, const Refle
         given.gbuffer = &gbuffer;  // of the size that this library knows
         const RefletIndirectLight light = preparedLight(given);
         given.light = given.light != nullptr ? &light : nullptr;
+        RefletToneMapInfo toneMap{};
+        if (given.toneMap != nullptr) {
+            toneMap = adopted(given.toneMap, "RefletPrepareInfo.toneMap");
+            given.toneMap = &toneMap;
+            given.autoExposure = toneMap.autoExposure;
+        }
         checkBoolean(given.hasEnvironmentImage, "RefletPrepareInfo.hasEnvironmentImage");
         checkBoolean(given.autoExposure, "RefletPrepareInfo.autoExposure");
         checkBoolean(given.changesSize, "RefletPrepareInfo.changesSize");

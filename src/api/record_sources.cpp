@@ -75,6 +75,9 @@ lighting::HostLight hostLight(RefletView_T& view, Frame& frame, const Settings& 
     gpu::PassList& f = view.recorder;
     lighting::HostLight light;
     light.probes = in.probes.empty() ? ProbeMaps{} : probeMaps(view, in);
+    for (ProbeParams& probe : light.probes.block.probes) {
+        probe.radianceScale = frame.preExposure;  // the maps outlive the frame, so the host gives them without it
+    }
     light.mirrorsFirst = !in.planarAfterScreen;
     const bool diffuse = lobe == lobeDiffuse;
     const auto scope = f.scope(diffuse ? "diffuse" : "specular");

@@ -57,6 +57,15 @@ void startSize(RefletView_T& view, uvec2 size) {
     view.recorder.setSizes(sizesOf(view, before));
 }
 
+float preExposureOf(const RefletFrameInfo& info) {
+    constexpr float least = 1e-8F;
+    constexpr float most = 1e8F;
+    if (info.preExposure != 0.0F && !(info.preExposure >= least && info.preExposure <= most)) {
+        failArgument("RefletFrameInfo.preExposure: is {}; must be {} to {}, or 0 for 1", info.preExposure, least, most);
+    }
+    return info.preExposure != 0.0F ? info.preExposure : 1.0F;
+}
+
 Frame frameOf(const RefletView_T& view, const RefletFrameInfo& info, const RefletGBuffer& gbuffer,
               const Rectangle& drawn) {
     Frame frame;
@@ -67,6 +76,8 @@ Frame frameOf(const RefletView_T& view, const RefletFrameInfo& info, const Refle
         failArgument("RefletFrameInfo.elapsed: is {}; must be 0 to 3600 seconds", info.elapsed);
     }
     frame.elapsed = info.elapsed;
+    frame.preExposure = preExposureOf(info);
+    frame.context.view.exposureChange = frame.preExposure / view.preExposure;
     if (!(info.lightChange >= 0.0F && info.lightChange <= 1.0F)) {
         failArgument("RefletFrameInfo.lightChange: is {}; must be 0 to 1", info.lightChange);
     }
@@ -90,6 +101,7 @@ void note(RefletView_T& view, const RefletFrameInfo& info, const RefletGBuffer& 
         const RefletFrameInfo& before = view.described->info;
         now.frames = view.described->frames + 1;
         now.lastIndex = before.frameIndex;
+        now.lastPreExposure = before.preExposure != 0.0F ? before.preExposure : 1.0F;
         now.lastJitter = {before.jitter[0], before.jitter[1]};
     }
     view.described = now;
@@ -293,6 +305,7 @@ RefletResult refletBeginFrame(RefletView view, const RefletFrameInfo* info) {
         view->hostImages.clear();
         view->recorder.begin(given.commandBuffer);
         startSize(*view, drawn.size);
+        view->preExposure = frame.preExposure;
         try {
             waitForReaders(*view);
             HostImages host(*view);

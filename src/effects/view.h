@@ -32,6 +32,8 @@ struct ViewParams {
     uint rest;          // frames before this one since anything changed: camera, lights, surfaces, settings. How
                         // histories use it: lighting::fitHistories
     float preExposure;  // power of two by which all radiance in images is multiplied, so that half floats hold it
+    float
+        exposureChange;  // factor on radiance in images of the last frame: pre-exposure now over that of the last frame
 };
 
 SHARED_END

@@ -14,15 +14,15 @@ F instanceFunction(const OpenDevice& open, const char* name) {
     const PFN_vkVoidFunction found = open.lookUp(open.instance, name);
     if (found == nullptr) {
         throw Unsupported(fmt::format(
-            "the Vulkan instance has no {}: it was created for a version below 1.3 (VkApplicationInfo::apiVersion)",
+            "the Vulkan instance has no {}: it was created for a version below 1.2 (VkApplicationInfo::apiVersion)",
             name));
     }
     return reinterpret_cast<F>(found);
 }
 
 void requireVersion(uint32_t version) {
-    if (version < VK_API_VERSION_1_3) {
-        throw Unsupported(fmt::format("the device has Vulkan {}.{}: 1.3 is needed", VK_API_VERSION_MAJOR(version),
+    if (version < VK_API_VERSION_1_2) {
+        throw Unsupported(fmt::format("the device has Vulkan {}.{}: 1.2 is needed", VK_API_VERSION_MAJOR(version),
                                       VK_API_VERSION_MINOR(version)));
     }
 }
@@ -35,7 +35,10 @@ Context::Context(const OpenDevice& open)
       allocateMemory_(open.allocateMemory),
       freeMemory_(open.freeMemory),
       anisotropic_(open.samplerAnisotropy),
-      rayQuery_(open.rayQuery) {
+      rayQuery_(open.rayQuery),
+      writesWithoutFormat_(open.writesWithoutFormat),
+      queueFamilies_(open.queueFamilies),
+      physical_(open.physical) {
     VkPhysicalDeviceAccelerationStructurePropertiesKHR structures{
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ACCELERATION_STRUCTURE_PROPERTIES_KHR};
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2,
@@ -51,6 +54,8 @@ Context::Context(const OpenDevice& open)
             reinterpret_cast<PFN_vkCmdBeginDebugUtilsLabelEXT>(lookUp(device_, "vkCmdBeginDebugUtilsLabelEXT"));
         endLabel_ = reinterpret_cast<PFN_vkCmdEndDebugUtilsLabelEXT>(lookUp(device_, "vkCmdEndDebugUtilsLabelEXT"));
     }
+    formatProperties_ =
+        instanceFunction<PFN_vkGetPhysicalDeviceFormatProperties>(open, "vkGetPhysicalDeviceFormatProperties");
     limits_ = properties.properties.limits;
     cpu_ = properties.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     scratchAlignment_ = structures.minAccelerationStructureScratchOffsetAlignment;
@@ -59,6 +64,12 @@ Context::Context(const OpenDevice& open)
         open.physical, &memory);
     memory_ = std::make_unique<Memory>(*this, memory);
     pipelines_ = std::make_unique<PipelineCache>(*this, open.pipelines);
+}
+
+bool Context::storesImagesOf(VkFormat format) const {
+    VkFormatProperties known{};
+    formatProperties_(physical_, format, &known);
+    return (known.optimalTilingFeatures & VK_FORMAT_FEATURE_STORAGE_IMAGE_BIT) != 0;
 }
 
 Context::~Context() {

@@ -39,6 +39,10 @@ struct OpenDevice {
     std::function<VkResult(const VkMemoryAllocateInfo&, VkDeviceMemory*)> allocateMemory;
     std::function<void(VkDeviceMemory)> freeMemory;
     PipelineMaking pipelines;
+    /// Families that share images and buffers; fewer than two: they belong to one at a time.
+    std::vector<uint32_t> queueFamilies{};
+    /// shaderStorageImageWriteWithoutFormat.
+    bool writesWithoutFormat = false;
 };
 
 /// Parameters of a sampler.
@@ -104,6 +108,19 @@ public:
     [[nodiscard]] bool hasRayQuery() const { return rayQuery_; }
     /// Alignment of the memory that building an acceleration structure needs; 0 without ray query.
     [[nodiscard]] VkDeviceSize scratchAlignment() const { return scratchAlignment_; }
+    /// Whether shaders may write images whose format they do not name.
+    [[nodiscard]] bool writesWithoutFormat() const { return writesWithoutFormat_; }
+    /// Whether storage images of this format can be made.
+    [[nodiscard]] bool storesImagesOf(VkFormat format) const;
+    /// Of VkImageCreateInfo and VkBufferCreateInfo.
+    template <class CreateInfo>
+    void share(CreateInfo& create) const {
+        if (queueFamilies_.size() > 1) {
+            create.sharingMode = VK_SHARING_MODE_CONCURRENT;
+            create.queueFamilyIndexCount = static_cast<uint32_t>(queueFamilies_.size());
+            create.pQueueFamilyIndices = queueFamilies_.data();
+        }
+    }
     [[nodiscard]] VkDevice handle() const { return device_; }
     [[nodiscard]] const VkAllocationCallbacks* allocator() const { return allocator_ ? &*allocator_ : nullptr; }
     [[nodiscard]] Memory& memory() { return *memory_; }
@@ -159,6 +176,10 @@ private:
     bool anisotropic_ = false;
     bool rayQuery_ = false;
     bool cpu_ = false;
+    bool writesWithoutFormat_ = false;
+    std::vector<uint32_t> queueFamilies_;
+    VkPhysicalDevice physical_ = VK_NULL_HANDLE;
+    PFN_vkGetPhysicalDeviceFormatProperties formatProperties_ = nullptr;
     ObjectCounts counts_;
     std::unique_ptr<Memory> memory_;
     ShaderLibrary shaders_;

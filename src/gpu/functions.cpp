@@ -19,7 +19,8 @@ PFN_vkVoidFunction find(PFN_vkGetDeviceProcAddr lookUp, VkDevice device, const c
     }
     throw Unsupported(
         fmt::format("this device has no {}: its instance was created for a version of Vulkan below 1.3 "
-                    "(VkApplicationInfo::apiVersion), or a layer or driver lacks it",
+                    "(VkApplicationInfo::apiVersion) and the device without VK_KHR_synchronization2, or a layer or "
+                    "driver lacks it",
                     name));
 }
 
@@ -29,6 +30,9 @@ DeviceFunctions loadFunctions(PFN_vkGetDeviceProcAddr lookUp, VkDevice device, b
     DeviceFunctions functions;
 #define REFLET_LOAD(name) functions.name = reinterpret_cast<PFN_##name>(find(lookUp, device, #name));
     REFLET_DEVICE_FUNCTIONS(REFLET_LOAD)
+#define REFLET_FIND(name) functions.name = reinterpret_cast<PFN_##name>(lookUp(device, #name));
+    REFLET_RASTER_FUNCTIONS(REFLET_FIND)
+#undef REFLET_FIND
     if (rayQuery) {
         REFLET_RAY_QUERY_FUNCTIONS(REFLET_LOAD)
     }

@@ -6,13 +6,13 @@
 
 namespace reflet::gpu {
 
-// Those of Vulkan 1.3 without ray tracing. Each is looked up by its name, then with the suffix KHR.
+// Those of Vulkan 1.2 and synchronization2, without ray tracing. Each is looked up by its name, then with the suffix
+// KHR.
 #define REFLET_DEVICE_FUNCTIONS(F)   \
     F(vkAllocateDescriptorSets)      \
     F(vkAllocateMemory)              \
     F(vkBindBufferMemory)            \
     F(vkBindImageMemory)             \
-    F(vkCmdBeginRendering)           \
     F(vkCmdBindDescriptorSets)       \
     F(vkCmdBindIndexBuffer)          \
     F(vkCmdBindPipeline)             \
@@ -26,13 +26,10 @@ namespace reflet::gpu {
     F(vkCmdDispatch)                 \
     F(vkCmdDispatchIndirect)         \
     F(vkCmdDrawIndexed)              \
-    F(vkCmdEndRendering)             \
     F(vkCmdFillBuffer)               \
     F(vkCmdPipelineBarrier2)         \
     F(vkCmdPushConstants)            \
     F(vkCmdResetQueryPool)           \
-    F(vkCmdSetCullMode)              \
-    F(vkCmdSetFrontFace)             \
     F(vkCmdSetScissor)               \
     F(vkCmdSetViewport)              \
     F(vkCmdUpdateBuffer)             \
@@ -69,6 +66,13 @@ namespace reflet::gpu {
     F(vkMapMemory)                   \
     F(vkUpdateDescriptorSets)
 
+// Those of raster passes, of Vulkan 1.3: null where a device has none, as effects draw nothing.
+#define REFLET_RASTER_FUNCTIONS(F) \
+    F(vkCmdBeginRendering)         \
+    F(vkCmdEndRendering)           \
+    F(vkCmdSetCullMode)            \
+    F(vkCmdSetFrontFace)
+
 // Those of VK_KHR_acceleration_structure, and the addresses that it needs.
 #define REFLET_RAY_QUERY_FUNCTIONS(F)             \
     F(vkCmdBuildAccelerationStructuresKHR)        \
@@ -81,6 +85,7 @@ namespace reflet::gpu {
 struct DeviceFunctions {
 #define REFLET_MEMBER(name) PFN_##name name = nullptr;
     REFLET_DEVICE_FUNCTIONS(REFLET_MEMBER)
+    REFLET_RASTER_FUNCTIONS(REFLET_MEMBER)
     REFLET_RAY_QUERY_FUNCTIONS(REFLET_MEMBER)
 #undef REFLET_MEMBER
 };

@@ -60,6 +60,7 @@ void PassRecord::clearDeclarations() {
     imageUses.clear();
     bufferUses.clear();
     boundBytes = 0;
+    root = false;
 }
 
 uint32_t Pass::slotOf(std::string_view binding, bool uniform) const {
@@ -100,6 +101,7 @@ void Pass::bind(std::string_view binding, Bound bound) {
                                       : Access{stages, VK_ACCESS_2_SHADER_READ_BIT, false};
     if (bound.image) {
         use(bound.image, access);
+        record_->root = record_->root || (bound.write && bound.image.state->external);
         record_->boundBytes += bound.image.state->external ? 0 : bytesOf(bound.image);  // a host's may have any format
     } else if (bound.buffer) {
         use(bound.buffer, access);
@@ -156,7 +158,8 @@ void Pass::checkAccess(const ShaderBinding& binding, const Bound& bound) const {
     REFLET_CHECK(bound.write == (canWrite && writable), "{}: '{}' is {} here, and {} in the shader", record_->name,
                  binding.name, bound.write ? "written" : "read", canWrite && writable ? "not readonly" : "readonly");
     // Elsewhere a mismatch reads garbage, and only newer validation layers report it.
-    REFLET_CHECK(binding.type != VK_DESCRIPTOR_TYPE_STORAGE_IMAGE || bound.image.format == binding.format,
+    const bool anyFormat = binding.type != VK_DESCRIPTOR_TYPE_STORAGE_IMAGE || binding.format == VK_FORMAT_UNDEFINED;
+    REFLET_CHECK(anyFormat || bound.image.format == binding.format,
                  "{}: '{}' has VkFormat {} here and {} in the shader", record_->name, binding.name,
                  static_cast<int>(bound.image.format), static_cast<int>(binding.format));
 }

@@ -127,6 +127,7 @@ struct PassRecord {
     std::vector<std::pair<Image, Access>> imageUses;
     std::vector<std::pair<BufferView, Access>> bufferUses;
     uint64_t boundBytes = 0;
+    bool root = false;  ///< needed, whoever reads what it writes
 
     // Kept from frame to frame.
     const Pipeline* pipeline = nullptr;  ///< of madeInfo

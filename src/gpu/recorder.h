@@ -46,6 +46,9 @@ public:
     /// from now on. Frames must be submitted in the order in which they begin. A frame that has begun and not ended,
     /// after an exception, is abandoned: its commands must not be submitted.
     void begin(VkCommandBuffer commands);
+    /// What is flushed from now on goes into this command buffer. The device must execute them in this order, and see
+    /// in each what the ones before have written: barriers do that on one queue, a semaphore between two.
+    void recordInto(VkCommandBuffer commands) { commands_ = commands; }
     /// Plans and records the passes listed so far, for callers that record commands of their own before the next ones.
     /// What lives in one frame and is used later must be kept (PassList::keep).
     void flush();

@@ -88,7 +88,7 @@ void Recorder::makeGraph() {
             graph_.uses.push_back({listed(buffer), access});
         }
         graph_.passes.push_back(
-            {first, static_cast<uint32_t>(graph_.uses.size()) - first, pass->kind == PassKind::readback});
+            {first, static_cast<uint32_t>(graph_.uses.size()) - first, pass->root || pass->kind == PassKind::readback});
     }
     graph_.heaps = memory().heaps();
     memory().describeHeld(graph_.heaps, number_, [&](const ImageState& state) {

@@ -19,7 +19,9 @@ uint32_t bytesPerTexel(VkFormat format) {
             return 1;
         case VK_FORMAT_R8G8B8A8_UNORM:
         case VK_FORMAT_R8G8B8A8_SRGB:
+        case VK_FORMAT_B8G8R8A8_UNORM:
         case VK_FORMAT_A2B10G10R10_UNORM_PACK32:
+        case VK_FORMAT_A2R10G10B10_UNORM_PACK32:
         case VK_FORMAT_B10G11R11_UFLOAT_PACK32:
         case VK_FORMAT_R16G16_SFLOAT:
         case VK_FORMAT_R32_UINT:
@@ -103,6 +105,7 @@ VkImage makeImage(Context& context, const ImageInfo& info, const std::string& na
     create.arrayLayers = info.layers;
     create.samples = VK_SAMPLE_COUNT_1_BIT;
     create.usage = info.usage;
+    context.share(create);
     ++context.counts().images;
     VkImage image = VK_NULL_HANDLE;
     vkCheck(context.vk.vkCreateImage(context.handle(), &create, context.allocator(), &image), "creating an image");
@@ -186,6 +189,7 @@ Buffer::Buffer(Context& context, VkDeviceSize size, VkBufferUsageFlags usage, Me
     VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     create.size = size;
     create.usage = usage;
+    context.share(create);
     ++context.counts().buffers;
     auto state = std::make_shared<BufferState>();
     state->id = nextResourceId();

@@ -52,7 +52,8 @@ struct ImageState {
     HeldImage* held = nullptr;  ///< that this is the state of; none for other images
     int32_t transient = -1;     ///< index among the transient images of its recorder; negative: it has an owner
     bool unused = false;        ///< PassList::placeholder: no shader uses what it holds
-    bool external = false;      ///< its owner records the barriers; passes only sample it, in `layout`
+    uvec2 origin{0};            ///< external: the first pixel of the rectangle that passes use
+    bool external = false;      ///< its owner records the barriers; passes sample it, in `layout`, or write it
 };
 
 struct BufferState {

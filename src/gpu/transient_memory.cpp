@@ -25,6 +25,7 @@ VkBuffer makeBuffer(Context& context, VkDeviceSize size, VkBufferUsageFlags usag
     VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     create.size = size;
     create.usage = usage;
+    context.share(create);
     ++context.counts().buffers;
     VkBuffer buffer = VK_NULL_HANDLE;
     vkCheck(context.vk.vkCreateBuffer(context.handle(), &create, context.allocator(), &buffer), "creating a buffer");

@@ -42,6 +42,7 @@ ViewParams viewOf(const mat4& worldToView, const mat4& viewToClip, uvec2 size) {
     v.pixel = 1.0F / v.size;
     v.pixelAngle = 2.0F / (std::abs(viewToClip[1][1]) * v.size.y);
     v.preExposure = 1.0F;
+    v.exposureChange = 1.0F;
     return v;
 }
 

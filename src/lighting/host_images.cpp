@@ -17,8 +17,8 @@ gpu::Image importLight(gpu::PassList& f, gpu::Image light, const LightImport& ho
     return reflet::importLight(f, light, how);
 }
 
-LightBound boundLight(gpu::PassList& f, LightBoundStore& own, uvec2 size, bool rests, bool unbounded) {
-    return reflet::boundLight(f, own, size, rests, unbounded);
+LightBound boundLight(gpu::PassList& f, LightBoundStore& own, uvec2 size, const LightBoundFrame& frame) {
+    return reflet::boundLight(f, own, size, frame);
 }
 
 void measureLight(gpu::PassList& f, LightBound& bound, gpu::Image light) {

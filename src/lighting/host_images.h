@@ -14,7 +14,7 @@ Surfaces importSurfaces(gpu::PassList& f, const HostSurfaces& host, const Import
 gpu::Image importLight(gpu::PassList& f, gpu::Image light, const LightImport& how = {});
 
 /// How bright a host's light may be in this frame, by what it was in the last ones.
-LightBound boundLight(gpu::PassList& f, LightBoundStore& own, uvec2 size, bool rests, bool unbounded);
+LightBound boundLight(gpu::PassList& f, LightBoundStore& own, uvec2 size, const LightBoundFrame& frame);
 
 /// Notes light that the limits have bounded, for those of the next frame.
 void measureLight(gpu::PassList& f, LightBound& bound, gpu::Image light);

@@ -3,8 +3,10 @@
 
 #include "effects/accumulate/accumulate.h"
 #include "effects/depth_of_field/depth_of_field.h"
+#include "effects/exposure/exposure.h"
 #include "effects/lobe/rays.h"
 #include "effects/temporal/temporal.h"
+#include "effects/tonemap/display.h"
 #include "lighting/light.h"
 #include "lighting/settings.h"
 #include "lighting/surfaces.h"
@@ -74,5 +76,7 @@ gpu::Image exposure(gpu::PassList& f, gpu::HistoryImage& own, const LightingSett
 
 /// RGBA8, display encoded, alpha 1. exposure: none: that of the settings.
 gpu::Image display(gpu::PassList& f, const LightingSettings& settings, gpu::Image radiance, gpu::Image exposure);
+using reflet::displayFor;
+using reflet::exposureFactor;
 
 }  // namespace reflet::lighting

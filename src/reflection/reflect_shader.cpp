@@ -39,6 +39,8 @@ constexpr ResourceKind resourceKinds[] = {
 
 VkFormat formatOf(SpvImageFormat format, std::string_view shader) {
     switch (format) {
+        case SpvImageFormatUnknown:
+            return VK_FORMAT_UNDEFINED;
         case SpvImageFormatR8:
             return VK_FORMAT_R8_UNORM;
         case SpvImageFormatRgba8:

@@ -23,6 +23,7 @@ ViewParams makeViewParams(const Camera& camera, uvec2 size, uint32_t frame, uint
     v.pixelAngle = height / pixels.y;
     v.frame = frame;
     v.seed = seed;
+    v.exposureChange = 1.0F;
     return v;
 }
 

@@ -40,8 +40,9 @@ vec3 toneAgx(vec3 c) {
     return pow(clamp(inverse(inset) * curve, 0.0f, 1.0f), vec3(2.2f));
 }
 
-// Khronos PBR Neutral (2024): base colours up to 0.8 are unchanged, highlights are compressed and desaturated.
-vec3 toneNeutral(vec3 c) {
+// Khronos PBR Neutral (2024): base colours up to 0.8 are unchanged, highlights are compressed and desaturated. `most`:
+// what they approach; 1 in the original.
+vec3 toneNeutralTo(vec3 c, float most) {
     const float start = 0.8f - dielectricReflectance;
     const float desaturation = 0.15f;
     float lowest = min(c.r, min(c.g, c.b));
@@ -52,10 +53,12 @@ vec3 toneNeutral(vec3 c) {
     if (peak < start) {
         return c;
     }
-    float room = 1.0f - start;
-    float compressed = 1.0f - room * room / (peak + room - start);
+    float room = most - start;
+    float compressed = most - room * room / (peak + room - start);
     float grey = 1.0f - 1.0f / (desaturation * (peak - compressed) + 1.0f);
     return mix(c * (compressed / peak), vec3(compressed), grey);
 }
+
+vec3 toneNeutral(vec3 c) { return toneNeutralTo(c, 1.0f); }
 
 #endif

@@ -70,6 +70,9 @@ protected:
         faults_ = faultsOfLayer();
         room_ = std::make_unique<HostRoom>(*host_, test::RoomConventions{});
         makeSources();
+        const std::vector<uint32_t> black(size_t(HostRoom::width) * HostRoom::height);
+        output_ = host_->makeImage(VK_FORMAT_R8G8B8A8_UNORM, HostRoom::width, HostRoom::height, black.data(),
+                                   black.size() * sizeof black[0], 1, VK_IMAGE_USAGE_STORAGE_BIT);
     }
 
     // A probe, a planar view and images of the host's, and a lamp.
@@ -164,6 +167,7 @@ protected:
             if (!call("refletBeginFrame", [&] { return refletBeginFrame(view, &info); })) {
                 return;
             }
+            call("refletUseCommandBuffer", [&] { return refletUseCommandBuffer(view, commands); });
             effects(call, view, settings, few, display);
             call("refletEndFrame", [&] { return refletEndFrame(view); });
         });
@@ -191,6 +195,15 @@ protected:
         if (!few) {
             call("refletTemporal", [&] { return refletTemporal(view, settings, nullptr, &image); });
             call("refletDepthOfField", [&] { return refletDepthOfField(view, settings, &lens, nullptr, &image); });
+            RefletToneMapInfo to{};
+            to.structSize = sizeof to;
+            to.autoExposure = 1;
+            to.output = &output_;
+            RefletDisplay shown{sizeof shown, {}, {}};
+            call("refletToneMapTo", [&] { return refletToneMapTo(view, settings, &to, &shown); });
+            to.output = nullptr;
+            to.transfer = REFLET_TRANSFER_PQ;
+            call("refletToneMapTo", [&] { return refletToneMapTo(view, settings, &to, &shown); });
         }
         call("refletToneMap", [&] { return refletToneMap(view, settings, nullptr, 1, &display); });
     }
@@ -318,6 +331,7 @@ protected:
     RefletProbe probe_{};
     RefletPlanarView planar_{};
     RefletLampShadow lamp_{};
+    RefletImage output_{};
     Faults* faults_ = nullptr;
     RefletContext shared_ = nullptr;
     std::string atFirst_;                          ///< alive before there was a context

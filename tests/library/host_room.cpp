@@ -3,6 +3,7 @@
 
 #include "base/math.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -106,6 +107,32 @@ void spoil(RoomImages& images) {
 
 }  // namespace
 
+namespace {
+
+float nothingOf(float /*type*/) {
+    return NAN;
+}
+vec4 nothingOf(const vec4& /*type*/) {
+    return vec4(NAN);
+}
+
+// An image with the border of the conventions.
+template <class T>
+RefletImage makeFramed(LibraryHost& host, VkFormat format, const std::vector<T>& texels, uvec2 border) {
+    const uvec2 size = uvec2(HostRoom::width, HostRoom::height) + 2U * border;
+    std::vector<T> framed(size_t(size.x) * size.y, nothingOf(T()));
+    for (uint32_t y = 0; y < HostRoom::height; ++y) {
+        std::copy_n(texels.begin() + y * HostRoom::width, HostRoom::width,
+                    framed.begin() + (y + border.y) * size.x + border.x);
+    }
+    RefletImage image = host.makeImage(format, size.x, size.y, framed);
+    image.offset[0] = border.x;
+    image.offset[1] = border.y;
+    return image;
+}
+
+}  // namespace
+
 // The camera looks a little downward.
 HostRoom::HostRoom(LibraryHost& host, RoomConventions conventions) {
     const bool odd = conventions.unusual;
@@ -117,7 +144,10 @@ HostRoom::HostRoom(LibraryHost& host, RoomConventions conventions) {
     if (conventions.spoiled) {
         spoil(images);
     }
-    constexpr VkFormat four = VK_FORMAT_R32G32B32A32_SFLOAT;
+    const auto make = [&](const auto& texels) {
+        const bool one = sizeof texels[0] == sizeof(float);
+        return makeFramed(host, one ? VK_FORMAT_R32_SFLOAT : VK_FORMAT_R32G32B32A32_SFLOAT, texels, conventions.border);
+    };
     info_.structSize = sizeof info_;
     store(info_.worldToView, toView);
     store(info_.viewToClip, projection(odd));
@@ -128,26 +158,26 @@ HostRoom::HostRoom(LibraryHost& host, RoomConventions conventions) {
     info_.renderSize[1] = conventions.drawn.y;
     RefletGBuffer& g = gbuffer_;
     g.structSize = sizeof g;
-    g.depth = host.makeImage(VK_FORMAT_R32_SFLOAT, width, height, images.depth);
+    g.depth = make(images.depth);
     g.depthKind = odd ? REFLET_DEPTH_STANDARD : REFLET_DEPTH_REVERSED;
-    g.normal = host.makeImage(four, width, height, images.normal);
+    g.normal = make(images.normal);
     g.normalKind = odd ? REFLET_NORMAL_VECTOR_UNORM : REFLET_NORMAL_OCTAHEDRAL_SNORM;
     g.normalsInViewSpace = odd ? 1 : 0;
-    g.roughness = host.makeImage(four, width, height, images.material);
+    g.roughness = make(images.material);
     g.roughnessChannel = odd ? 3 : 0;
     g.roughnessKind = odd ? REFLET_ROUGHNESS_ALPHA : REFLET_ROUGHNESS_PERCEPTUAL;
     g.metallic = g.roughness;
     g.metallicChannel = 1;
-    g.baseColor = host.makeImage(four, width, height, images.color);
+    g.baseColor = make(images.color);
     g.baseColorKind = odd ? REFLET_COLOR_SRGB : REFLET_COLOR_LINEAR;
-    g.motion = host.makeImage(four, width, height, images.motion);
+    g.motion = make(images.motion);
     g.motionKind = odd ? REFLET_MOTION_PIXELS : REFLET_MOTION_UV;
     g.motionScale[0] = g.motionScale[1] = odd ? -1.0F : 0.0F;
     environment_.structSize = sizeof environment_;
     environment_.factor[0] = 0.5F;
     environment_.factor[1] = 0.6F;
     environment_.factor[2] = 0.8F;
-    lit_ = host.makeImage(four, width, height, images.lit);
+    lit_ = make(images.lit);
     shadowMap_ = host.makeImage(VK_FORMAT_R32_SFLOAT, 64, 64, std::vector<float>(size_t(64) * 64, 0.0F));
 }
 

@@ -154,6 +154,7 @@ LibraryHost::LibraryHost() {
     features_ = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12_};
     features_.features.shaderStorageImageExtendedFormats = VK_TRUE;
     features_.features.imageCubeArray = VK_TRUE;
+    features_.features.shaderStorageImageWriteWithoutFormat = VK_TRUE;
     volkLoadInstance(host.device().instance);
     made() = {};
 }
@@ -191,7 +192,7 @@ RefletContext LibraryHost::makeContext() const {
 }
 
 RefletImage LibraryHost::makeImage(VkFormat format, uint32_t width, uint32_t height, const void* texels, size_t bytes,
-                                   uint32_t layers) {
+                                   uint32_t layers, VkImageUsageFlags more) {
     const gpu::OpenDevice open = host.device();
     HostImage made;
     VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
@@ -203,6 +204,7 @@ RefletImage LibraryHost::makeImage(VkFormat format, uint32_t width, uint32_t hei
     info.arrayLayers = layers;
     info.samples = VK_SAMPLE_COUNT_1_BIT;
     info.usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    info.usage |= more;
     vkCreateImage(open.device, &info, nullptr, &made.image);
     VkMemoryRequirements needs;
     vkGetImageMemoryRequirements(open.device, made.image, &needs);

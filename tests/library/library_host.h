@@ -38,7 +38,7 @@ public:
 
     /// texels: rows from the top, tightly packed; layers one after the other. Layout GENERAL.
     RefletImage makeImage(VkFormat format, uint32_t width, uint32_t height, const void* texels, size_t bytes,
-                          uint32_t layers = 1);
+                          uint32_t layers = 1, VkImageUsageFlags more = 0);
     template <class T>
     RefletImage makeImage(VkFormat format, uint32_t width, uint32_t height, const std::vector<T>& texels) {
         return makeImage(format, width, height, texels.data(), texels.size() * sizeof(T));
@@ -85,6 +85,7 @@ struct RoomConventions {
     uvec2 drawn{0};        ///< RefletFrameInfo::renderSize; images are as large as ever, and NaN around that. 0: all
     vec2 jitter{0.0F};     ///< pixels
     bool still = false;    ///< nothing moves; otherwise motion vectors say that all does
+    uvec2 border{0};       ///< images of the frame have NaN around it, so many pixels wide on each side
 };
 
 /// A floor, a wall and sky, from analytic rays.

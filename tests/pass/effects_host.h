@@ -150,6 +150,12 @@ public:
         const lighting::Light means = lighting::accumulate(f, stores_.means, light, 0);
         const gpu::Image stops = lighting::exposure(f, stores_.exposure, settings, surfaces, mean, 0.0F);
         const gpu::Image display = lighting::display(f, settings, mean.lit, stops);
+        const gpu::Image factor = lighting::exposureFactor(f, stops);
+        for (const VkFormat format :
+             {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_A2B10G10R10_UNORM_PACK32, VK_FORMAT_R16G16B16A16_SFLOAT}) {
+            f.keep(lighting::displayFor(f, mean.lit, settings.tonemap, factor,
+                                        {.format = format, .transfer = transferPq}));
+        }
         const RecordRayInputs traced{surfaces.g, {}, surfaces.pyramid};
         recordRay(f, traced, view, {}, size / 2U);
         recordHemisphere(f, traced, view, {}, size / 2U);

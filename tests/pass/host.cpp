@@ -80,6 +80,7 @@ void Host::openDevice() {
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &v12};
     features.features.shaderStorageImageExtendedFormats = VK_TRUE;
     features.features.imageCubeArray = VK_TRUE;
+    features.features.shaderStorageImageWriteWithoutFormat = VK_TRUE;
     const float priority = 1.0F;
     VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     queue.queueCount = 1;

@@ -43,6 +43,7 @@ std::vector<vec4> TemporalRun::add(const MadeUpFrame& picture) {
     const gpu::Image motions = fill("motion", motion);
     const gpu::Image depths = fill("depth", depth);
     ViewParams view{};
+    view.exposureChange = 1.0F;
     const vec2 jitter = subpixelJitter(count_);
     view.frame = count_++;
     const TemporalInputs in{depths, motions, shown, {}, view, output_, jitter};

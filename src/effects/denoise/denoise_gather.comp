@@ -166,11 +166,12 @@ void addHistory(HistoryLookup w, KeptSurface own, ScreenPlane plane, ivec2 texel
         return;
     }
     vec2 m = imageLoad(previousMoments, texel).xy;
-    sum.light += weight * light;
+    float exposed = params.view.exposureChange;
+    sum.light += weight * vec4(exposed * light.rgb, light.a);
     sum.frames += weight * m.x;
-    sum.square += weight * m.y;
+    sum.square += weight * exposed * exposed * m.y;
     if (hasDirectional != 0u) {
-        sum.directional += weight * imageLoad(previousDirectional, texel);
+        sum.directional += weight * exposed * imageLoad(previousDirectional, texel);
     }
     weights += weight;
 }

@@ -38,6 +38,12 @@ gpu::Image measureExposure(gpu::PassList& f, gpu::HistoryImage& own, gpu::Image 
     return exposures.next;
 }
 
+gpu::Image exposureFactor(gpu::PassList& f, gpu::Image exposure) {
+    const gpu::Image factor = f.image("exposure_factor", VK_FORMAT_R32_SFLOAT, uvec2(1));
+    f.compute("exposure.factor", "exposure_factor.comp").read("exposure", exposure).write("factor", factor).dispatch(1);
+    return factor;
+}
+
 float exposureOf(const gpu::Recorder& f, gpu::Readback exposure) {
     vec2 smoothed(0.0F);
     std::memcpy(&smoothed, f.bytes(exposure).data() + exposureFrames * sizeof(vec2), sizeof(vec2));

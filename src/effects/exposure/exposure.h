@@ -64,6 +64,9 @@ uint32_t meterStep(uvec2 size);
 gpu::Image measureExposure(gpu::PassList& f, gpu::HistoryImage& own, gpu::Image radiance, gpu::Image depth,
                            float elapsed, float adaptation, float preExposure = 0.0F);
 
+/// R32F, 1x1: the factor on radiance that measureExposure found.
+gpu::Image exposureFactor(gpu::PassList& f, gpu::Image exposure);
+
 /// Stops, from a read-back of that image.
 float exposureOf(const gpu::Recorder& f, gpu::Readback exposure);
 

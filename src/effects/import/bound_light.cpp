@@ -15,9 +15,11 @@ constexpr float riseAtRest = 2.0F;
 
 }  // namespace
 
-LightBound boundLight(gpu::PassList& f, LightBoundStore& own, uvec2 size, bool rests, bool unbounded) {
+LightBound boundLight(gpu::PassList& f, LightBoundStore& own, uvec2 size, const LightBoundFrame& frame) {
     const uvec2 tiles = (size + boundTileSide - 1U) / boundTileSide;
-    LightBound bound{.limits = f.image("light_limits", format, tiles), .peaks = own.peaks.swap(f, format, tiles)};
+    LightBound bound{.limits = f.image("light_limits", format, tiles),
+                     .peaks = own.peaks.swap(f, format, tiles),
+                     .exposureChange = frame.exposureChange};
     const gpu::Image framePeak = f.image("light_frame_peak", format, uvec2(1));
     f.compute("import.frame_peak", "light_frame_peak.comp")
         .read("peaks", bound.peaks.previous)
@@ -27,8 +29,8 @@ LightBound boundLight(gpu::PassList& f, LightBoundStore& own, uvec2 size, bool r
         .read("peaks", bound.peaks.previous)
         .read("framePeak", framePeak)
         .write("limits", bound.limits)
-        .params(LightLimitsParams{tiles, rests ? 0.0F : riseInMotion, rests ? riseAtRest : 0.0F,
-                                  unbounded || !bound.peaks.valid ? 1U : 0U})
+        .params(LightLimitsParams{tiles, frame.rests ? 0.0F : riseInMotion, frame.rests ? riseAtRest : 0.0F,
+                                  frame.unbounded || !bound.peaks.valid ? 1U : 0U, frame.exposureChange})
         .dispatch(tiles);
     return bound;
 }
@@ -40,7 +42,7 @@ void measureLight(gpu::PassList& f, LightBound& bound, gpu::Image light) {
         .read("light", light)
         .read("previous", bound.peaks.previous)
         .write("peaks", bound.peaks.next)
-        .params(LightPeakParams{light.size, from})
+        .params(LightPeakParams{light.size, from, bound.exposureChange})
         .dispatch(bound.peaks.next.size);
     bound.measured = true;
 }

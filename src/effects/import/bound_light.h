@@ -17,8 +17,9 @@ const uint lightPeaksStart = 1;  // there are none, neither of this frame nor of
 const uint lightPeaksNext = 2;   // go on from the last frame's
 
 struct LightPeakParams {
-    uvec2 size;  // of the light
-    uint from;   // lightPeaks…
+    uvec2 size;            // of the light
+    uint from;             // lightPeaks…
+    float exposureChange;  // of ViewParams
 };
 
 struct LightLimitsParams {
@@ -26,6 +27,7 @@ struct LightLimitsParams {
     float whole;     // multiple of the picture's peak that is added to the limit
     float near;      // of that of the tiles around
     uint unbounded;  // 1: there is no limit
+    float exposureChange;
 };
 
 SHARED_END
@@ -46,11 +48,18 @@ struct LightBoundStore {
 struct LightBound {
     gpu::Image limits;  ///< R32F: luminance, a texel for each tile
     gpu::History peaks;
+    float exposureChange = 1.0F;
     bool measured = false;  ///< peaks.next has light of this frame
 };
 
-/// rests: nothing has changed since the last frame. unbounded: its light may be of any luminance.
-LightBound boundLight(gpu::PassList& f, LightBoundStore& own, uvec2 size, bool rests, bool unbounded);
+/// What a frame is to the one before.
+struct LightBoundFrame {
+    bool rests = false;           ///< nothing has changed since the last frame
+    bool unbounded = false;       ///< its light may be of any luminance
+    float exposureChange = 1.0F;  ///< of ViewParams
+};
+
+LightBound boundLight(gpu::PassList& f, LightBoundStore& own, uvec2 size, const LightBoundFrame& frame);
 
 /// Notes light of this frame, which the limits bound: the next frame's limits follow from it.
 void measureLight(gpu::PassList& f, LightBound& bound, gpu::Image light);

@@ -1,7 +1,24 @@
 // Records the import of a host's images.
 #include "effects/import/import.h"
 
+#include <iterator>
+
 namespace reflet {
+
+namespace {
+
+void setOrigins(const HostSurfaces& host, ImportParams& params) {
+    const gpu::Image images[] = {host.depth,     host.normal,  host.geometricNormal, host.roughness, host.metallic,
+                                 host.baseColor, host.f0,      host.motion,          host.backDepth, host.excluded,
+                                 host.unlit,     host.reactive};
+    static_assert(std::size(images) == hostImageReactive + 1);
+    for (int i = 0; i < int(std::size(images)); ++i) {
+        const uvec2 origin = images[i] ? images[i].state->origin : uvec2(0);
+        params.origins[i] = origin.x | origin.y << 16U;
+    }
+}
+
+}  // namespace
 
 ImportedSurfaces importSurfaces(gpu::PassList& f, const HostSurfaces& host, ImportParams params) {
     const uvec2 size = host.depth.size;
@@ -37,6 +54,7 @@ ImportedSurfaces importSurfaces(gpu::PassList& f, const HostSurfaces& host, Impo
     params.excludedChannel = host.excludedChannel;
     params.unlitChannel = host.unlitChannel;
     params.reactiveChannel = host.reactiveChannel;
+    setOrigins(host, params);
     f.compute("import.surfaces", "import_surfaces.comp")
         .constant("reversed", host.reversed ? 1 : 0)
         .constant("normalKind", host.normalKind)
@@ -88,7 +106,7 @@ gpu::Image importLight(gpu::PassList& f, gpu::Image light, const LightImport& ho
         .read("hostLight", light)
         .read("limits", how.limits ? how.limits : f.placeholder(VK_FORMAT_R32_SFLOAT))
         .write("light", out)
-        .params(ImportLightParams{light.size, how.maxRadiance})
+        .params(ImportLightParams{light.size, light.state->origin, how.maxRadiance})
         .dispatch(light.size);
     return out;
 }

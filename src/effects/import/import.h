@@ -35,10 +35,26 @@ struct ImportParams {
     uint excludedChannel;
     uint unlitChannel;
     uint reactiveChannel;
+    // Of each image of a host, in the order of hostImage…: where the frame begins in it, x + 65536 y.
+    uint origins[12];
 };
+
+const uint hostImageDepth = 0;
+const uint hostImageNormal = 1;
+const uint hostImageGeometricNormal = 2;
+const uint hostImageRoughness = 3;
+const uint hostImageMetallic = 4;
+const uint hostImageBaseColor = 5;
+const uint hostImageF0 = 6;
+const uint hostImageMotion = 7;
+const uint hostImageBackDepth = 8;
+const uint hostImageExcluded = 9;
+const uint hostImageUnlit = 10;
+const uint hostImageReactive = 11;
 
 struct ImportLightParams {
     uvec2 size;
+    uvec2 origin;       // in the host's image
     float maxRadiance;  // luminance
 };
 
@@ -84,7 +100,7 @@ struct ImportedSurfaces {
     gpu::Image reactive;    ///< R8; none if the host has none
 };
 
-/// params: without the channels, which are set.
+/// params: without the channels and origins, which are set.
 ImportedSurfaces importSurfaces(gpu::PassList& f, const HostSurfaces& host, ImportParams params);
 
 struct LightImport {

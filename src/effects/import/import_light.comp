@@ -20,7 +20,7 @@ void main() {
     if (any(greaterThanEqual(pixel, ivec2(params.size)))) {
         return;
     }
-    vec4 texel = texelFetch(hostLight, pixel, 0);
+    vec4 texel = texelFetch(hostLight, pixel + ivec2(params.origin), 0);
     vec3 radiance = finite(texel.rgb) ? texel.rgb : vec3(0.0);
     float limit = params.maxRadiance;
     if (bounded != 0u) {

@@ -51,6 +51,12 @@ layout(r32f) uniform writeonly image2D backDepth;
 layout(r32f) uniform writeonly image2D shownDepth;
 layout(r8) uniform writeonly image2D reactive;
 
+// Where a pixel of the frame is in an image of the host.
+ivec2 inImage(ivec2 pixel, uint image) {
+    uint origin = params.origins[image];
+    return pixel + ivec2(origin & 0xffffu, origin >> 16u);
+}
+
 // Reversed; 0 for the sky, and for what is no depth.
 float reversedDepth(float stored) {
     float d = reversed != 0u ? stored : 1.0 - stored;
@@ -59,10 +65,10 @@ float reversedDepth(float stored) {
 
 float channelOf(vec4 texel, uint channel) { return clamp(orZero(texel[min(channel, 3u)]), 0.0, 1.0); }
 
-float shownDepthAt(ivec2 pixel) { return reversedDepth(texelFetch(hostDepth, pixel, 0).r); }
+float shownDepthAt(ivec2 pixel) { return reversedDepth(texelFetch(hostDepth, inImage(pixel, hostImageDepth), 0).r); }
 
 bool isExcluded(ivec2 pixel) {
-    return hasExcluded != 0u && channelOf(texelFetch(hostExcluded, pixel, 0), params.excludedChannel) > 0.5;
+    return hasExcluded != 0u && channelOf(texelFetch(hostExcluded, inImage(pixel, hostImageExcluded), 0), params.excludedChannel) > 0.5;
 }
 
 // 0 outside of the picture, and where the host excludes what is shown.
@@ -141,7 +147,7 @@ float roughnessAt(ivec2 pixel) {
     if (hasRoughness == 0u) {
         return 1.0;
     }
-    float value = channelOf(texelFetch(hostRoughness, pixel, 0), params.roughnessChannel);
+    float value = channelOf(texelFetch(hostRoughness, inImage(pixel, hostImageRoughness), 0), params.roughnessChannel);
     value = roughnessKind == roughnessSmoothness ? 1.0 - value : value;
     return roughnessKind == roughnessAlpha ? sqrt(value) : value;
 }
@@ -150,7 +156,7 @@ vec3 baseColorAt(ivec2 pixel) {
     if (hasBaseColor == 0u) {
         return vec3(0.5);
     }
-    vec3 color = texelFetch(hostBaseColor, pixel, 0).rgb;
+    vec3 color = texelFetch(hostBaseColor, inImage(pixel, hostImageBaseColor), 0).rgb;
     color = finite(color) ? clamp(color, 0.0, 1.0) : vec3(0.0);
     return baseColorIsSrgb != 0u ? decodeSrgb(color) : color;
 }
@@ -158,7 +164,7 @@ vec3 baseColorAt(ivec2 pixel) {
 // uv now minus uv in the last frame, without jitter.
 vec2 motionAt(ivec2 pixel, vec2 uv, vec3 p) {
     if (hasMotion != 0u) {
-        vec2 texel = texelFetch(hostMotion, pixel, 0).rg;
+        vec2 texel = texelFetch(hostMotion, inImage(pixel, hostImageMotion), 0).rg;
         return vec2(orZero(texel.x), orZero(texel.y)) * params.motionToUv + params.motionOffset;
     }
     vec4 before = params.view.previousWorldToClip * vec4(p, 1.0);
@@ -178,18 +184,18 @@ void main() {
         imageStore(shownDepth, pixel, vec4(shown));
     }
     if (hasReactive != 0u) {
-        imageStore(reactive, pixel, vec4(channelOf(texelFetch(hostReactive, pixel, 0), params.reactiveChannel)));
+        imageStore(reactive, pixel, vec4(channelOf(texelFetch(hostReactive, inImage(pixel, hostImageReactive), 0), params.reactiveChannel)));
     }
     if (hasBackDepth != 0u) {
-        imageStore(backDepth, pixel, vec4(reversedDepth(texelFetch(hostBackDepth, pixel, 0).r)));
+        imageStore(backDepth, pixel, vec4(reversedDepth(texelFetch(hostBackDepth, inImage(pixel, hostImageBackDepth), 0).r)));
     }
     vec2 uv = pixelToUv(pixel, params.view.pixel);
     vec3 p = uvToWorld(uv, max(shown, 1e-9), params.view.clipToWorld);
     vec3 toEye = directionToEye(p, params.view.eye);
-    vec3 n = d > 0.0 && hasNormal != 0u ? decodedNormal(texelFetch(hostNormal, pixel, 0), toEye) : toEye;
+    vec3 n = d > 0.0 && hasNormal != 0u ? decodedNormal(texelFetch(hostNormal, inImage(pixel, hostImageNormal), 0), toEye) : toEye;
     vec3 flat_ = toEye;
     if (d > 0.0) {
-        flat_ = hasGeometricNormal != 0u ? decodedNormal(texelFetch(hostGeometricNormal, pixel, 0), toEye)
+        flat_ = hasGeometricNormal != 0u ? decodedNormal(texelFetch(hostGeometricNormal, inImage(pixel, hostImageGeometricNormal), 0), toEye)
                                          : normalFromDepth(pixel, d, p, n);
     }
     flat_ = dot(flat_, toEye) < 0.0 ? -flat_ : flat_;
@@ -200,12 +206,12 @@ void main() {
     imageStore(baseColor, pixel, vec4(packBaseColor(baseColorAt(pixel)), 1.0));
     float metal = 0.0;
     if (hasMetallic != 0u && hasF0 == 0u) {
-        metal = channelOf(texelFetch(hostMetallic, pixel, 0), params.metallicChannel);
+        metal = channelOf(texelFetch(hostMetallic, inImage(pixel, hostImageMetallic), 0), params.metallicChannel);
     }
-    bool dark = hasUnlit != 0u && channelOf(texelFetch(hostUnlit, pixel, 0), params.unlitChannel) > 0.5;
+    bool dark = hasUnlit != 0u && channelOf(texelFetch(hostUnlit, inImage(pixel, hostImageUnlit), 0), params.unlitChannel) > 0.5;
     imageStore(material, pixel, vec4(roughnessAt(pixel), metal, 1.0, dark ? float(materialFlagUnlit) / 255.0 : 0.0));
     if (hasF0 != 0u) {
-        vec3 f0 = texelFetch(hostF0, pixel, 0).rgb;
+        vec3 f0 = texelFetch(hostF0, inImage(pixel, hostImageF0), 0).rgb;
         f0 = finite(f0) ? clamp(f0, 0.0, 1.0) : vec3(0.0);
         imageStore(reflectance, pixel, vec4(f0 / dielectricF0, 1.0));
     }

@@ -19,10 +19,11 @@ void main() {
     if (any(greaterThan(tile, last))) {
         return;
     }
-    float picture = max(imageLoad(framePeak, ivec2(0)).r, darkest);
+    float picture = max(params.exposureChange * imageLoad(framePeak, ivec2(0)).r, darkest);
     float around = shareOfPicture * picture;
     for (int i = 0; i < 9; ++i) {
-        around = max(around, imageLoad(peaks, clamp(tile + ivec2(i % 3, i / 3) - 1, ivec2(0), last)).r);
+        ivec2 neighbour = clamp(tile + ivec2(i % 3, i / 3) - 1, ivec2(0), last);
+        around = max(around, params.exposureChange * imageLoad(peaks, neighbour).r);
     }
     float limit = params.whole * picture + params.near * around;
     imageStore(limits, tile, vec4(notInlined(params.unbounded, gl_GlobalInvocationID.x) != 0u ? 1e30 : limit));

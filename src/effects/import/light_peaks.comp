@@ -27,7 +27,7 @@ void main() {
     if (from == lightPeaksAdd) {
         peak = imageLoad(peaks, tile).r;
     } else if (from == lightPeaksNext) {
-        peak = kept * imageLoad(previous, tile).r;
+        peak = kept * params.exposureChange * imageLoad(previous, tile).r;
     }
     for (int y = first.y; y < end.y; ++y) {
         for (int x = first.x; x < end.x; ++x) {

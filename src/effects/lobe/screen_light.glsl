@@ -28,11 +28,15 @@ float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 
 bool fromPrevious() { return readsPrevious != 0u && params.previousValid != 0u; }
 
+// Radiance of the last frame, with the pre-exposure of this one.
+vec3 exposedNow(vec3 radiance) { return clampToHalf(params.view.exposureChange * radiance); }
+
 vec3 loadLight(ivec2 cell, int level) {
     if (level > 0) {
-        return texelFetch(lightMips, cell + ivec2(0, levelRow(ivec2(params.view.size), level)), 0).rgb;
+        vec3 mean = texelFetch(lightMips, cell + ivec2(0, levelRow(ivec2(params.view.size), level)), 0).rgb;
+        return fromPrevious() ? exposedNow(mean) : mean;
     }
-    return fromPrevious() ? imageLoad(previousLit, cell).rgb : imageLoad(light, cell).rgb;
+    return fromPrevious() ? exposedNow(imageLoad(previousLit, cell).rgb) : imageLoad(light, cell).rgb;
 }
 #include "effects/lobe/last_frame.glsl"
 #include "effects/light_mips/light_mips.glsl"

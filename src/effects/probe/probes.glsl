@@ -145,7 +145,7 @@ void sampleProbe(uint i, ProbeParams probe, ProbeQuery q, inout float share, ino
                  inout float hitDistance) {
     if (q.hemisphere) {
         share *= q.parallax == ProbeParallax_depth && probe.parallax == ProbeParallax_depth ? inSightOf(i, q.origin - probe.position) : 1.0;
-        vec4 seen = share * irradianceOfProbe(i, q.direction);
+        vec4 seen = share * irradianceOfProbe(i, q.direction) * vec4(vec3(probe.radianceScale), 1.0);
         radiance += seen;
         hitDistance += seen.a * distanceToBox(probe, q.origin, q.direction);
         return;
@@ -153,6 +153,7 @@ void sampleProbe(uint i, ProbeParams probe, ProbeQuery q, inout float share, ino
     ProbePoint point = endOfRay(i, probe, q);
     share *= point.certainty;
     vec4 seen = share * textureLod(probeLobes, vec4(point.direction, float(i)), lobeLevel(probeLobes, q.roughness));
+    seen.rgb *= probe.radianceScale;
     radiance += seen;
     hitDistance += seen.a * point.distance;
 }

@@ -46,9 +46,9 @@ struct ProbeParams {
     vec3 boxMin;    // surfaces in it are lit by the probe
     uint parallax;  // ProbeParallax; depth only where all passes bind distances
     vec3 boxMax;
-    float unused;      // 0
-    vec3 parallaxMin;  // the surroundings, for box projection; mostly the same box
-    float unused2;     // 0
+    float radianceScale;  // of what its maps hold: 1, or a host's pre-exposure
+    vec3 parallaxMin;     // the surroundings, for box projection; mostly the same box
+    float unused2;        // 0
     vec3 parallaxMax;
 };
 

@@ -95,7 +95,7 @@ void upscale(gpu::PassList& f, const Histories& h, const TemporalInputs& in, con
         .read("spread", spread)
         .read("changed", changed)
         .params(TemporalUpscaleParams{params.settings, params.size, vec2(params.size) / vec2(output), in.jitter,
-                                      params.frame})
+                                      params.frame, params.exposureChange})
         .dispatch(output);
 }
 
@@ -132,7 +132,8 @@ TemporalImages temporal(gpu::PassList& f, TemporalStore& own, const TemporalInpu
                                 h.valid ? 1U : 0U,
                                 in.view.rest < framesThatFollow ? 1U : 0U,
                                 in.sky != nullptr ? 1U : 0U,
-                                f.sizes().before != f.sizes().now ? 1U : 0U};
+                                f.sizes().before != f.sizes().now ? 1U : 0U,
+                                in.view.exposureChange};
     if (size != output) {
         upscale(f, h, in, params);
     } else {

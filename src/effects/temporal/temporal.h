@@ -51,13 +51,14 @@ struct TemporalParams {
     mat4 toPrevious;  // clip space to the last frame's clip space, of what is at rest
     TemporalSettings settings;
     uvec2 size;
-    vec2 jitter;        // of this frame, in its pixels
-    vec2 jitterChange;  // uv: of ViewParams
-    uint frame;         // counts up; decorrelates dithering between frames
-    uint hasPrevious;   // 1: the history holds the last frame
-    uint mayChange;     // 1: something has changed in the last framesThatFollow frames
-    uint skyIsFixed;    // 1: where depth is 0 the picture changes by the camera alone
-    uint resized;       // 1: the last frame had another size, and so neighbourhoods of another size
+    vec2 jitter;           // of this frame, in its pixels
+    vec2 jitterChange;     // uv: of ViewParams
+    uint frame;            // counts up; decorrelates dithering between frames
+    uint hasPrevious;      // 1: the history holds the last frame
+    uint mayChange;        // 1: something has changed in the last framesThatFollow frames
+    uint skyIsFixed;       // 1: where depth is 0 the picture changes by the camera alone
+    uint resized;          // 1: the last frame had another size, and so neighbourhoods of another size
+    float exposureChange;  // of ViewParams
 };
 
 struct TemporalUpscaleParams {
@@ -66,6 +67,7 @@ struct TemporalUpscaleParams {
     vec2 ratio;   // of this frame's size to the output's
     vec2 jitter;  // of this frame, in its pixels
     uint frame;   // as in TemporalParams
+    float exposureChange;
 };
 
 struct TemporalSkyParams {

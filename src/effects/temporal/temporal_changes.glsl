@@ -30,7 +30,9 @@ Changed changedAt(ivec2 pixel, float luma, Seen now) {
     bool rests = length(now.moved * vec2(params.size)) < asGoodAsStill;
     bool known = now.follows && rests;
     if (known) {
-        past = imageLoad(previousChanges, pixel) * float(1u - params.resized);
+        float exposed = params.exposureChange;
+        past = imageLoad(previousChanges, pixel) * vec4(exposed, exposed * exposed, exposed, 1.0);
+        past *= float(1u - params.resized);
     }
     float frames = min(past.a + 1.0, lastingFrames);
     float off = past.a > 0.0 ? luma - past.x : 0.0;

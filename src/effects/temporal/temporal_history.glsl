@@ -1,5 +1,5 @@
 // The history of temporal antialiasing: reprojection, clipping, and the mean with what a frame shows.
-// The includer declares params.settings and frame, the constants allowance
+// The includer declares params.settings, frame and exposureChange, the constants allowance
 // (factors on the clip limits in motion and at rest) and staleness, and of the output's size the images previousMean,
 // previousDeviations, mean and deviations, with HAS_COVERAGE also previousCoverage and meanCoverage.
 #ifndef REFLET_TEMPORAL_HISTORY_GLSL
@@ -52,6 +52,14 @@ float insideShare(vec3 c, vec3 middle, vec3 halfSize) {
     return 1.0 / max(max(out3.x, out3.y), max(out3.z, 1.0));
 }
 
+// By how much another pre-exposure stretches small differences of tone-compressed luma y / (1 + y) around `luma`, which is
+// that of this frame's.
+float exposedStretch(float luma) {
+    float exposed = params.exposureChange;
+    float step = exposed + (1.0 - exposed) * luma;
+    return step * step / exposed;
+}
+
 // What this frame shows at a pixel of the output.
 struct Shown {
     vec3 own;       // the nearest sample's radiance
@@ -81,9 +89,12 @@ void accumulate(ivec2 pixel, Shown now) {
     HistorySample history = HistorySample(vec4(0.0), 0.0);
     if (known) {
         history = reprojectedHistory(at);
+        history.mean.rgb *= params.exposureChange;
     }
     vec4 before = vec4(history.mean.rgb * now.relit, history.mean.a);
     vec2 differed = still > 0.0 ? imageLoad(previousDeviations, ivec2(at + 0.5)).rg : vec2(0.0);
+    float stretch = exposedStretch(toneCompress(history.mean.rgb).x);
+    differed *= vec2(stretch * stretch, stretch);
     float stale = staleness(staleShare(differed.y, differed.x, now.middle.x), pixelStaleLimits);
     float trust = still * (1.0 - stale);
     float unchanged = min(1.0 - now.stale, 1.0);

@@ -7,9 +7,8 @@
 #include "shaders/srgb.glsl"
 #include "shaders/tone_curves.glsl"
 
-// Display encoded, 0..1. `curve` is one of the constants ToneCurve_*, exposure in stops.
-vec3 displayColor(vec3 radiance, uint curve, float exposure) {
-    vec3 c = radiance * exp2(exposure);
+// Display encoded, 0..1. c: exposed radiance. `curve` is one of the constants ToneCurve_*.
+vec3 encodedColor(vec3 c, uint curve) {
     switch (curve) {
         case ToneCurve_aces:
             return encodeSrgb(toneAces(c));
@@ -23,5 +22,8 @@ vec3 displayColor(vec3 radiance, uint curve, float exposure) {
             return encodeSrgb(c);
     }
 }
+
+// exposure: stops.
+vec3 displayColor(vec3 radiance, uint curve, float exposure) { return encodedColor(radiance * exp2(exposure), curve); }
 
 #endif

@@ -39,7 +39,7 @@ ProbeBlock blockOf(std::span<const Probe> probes, const ProbesSettings& settings
                            .boxMin = box.min,
                            .parallax = static_cast<uint32_t>(ProbeParallax::depth),
                            .boxMax = box.max,
-                           .unused = 0.0F,
+                           .radianceScale = 1.0F,
                            .parallaxMin = box.min,
                            .unused2 = 0.0F,
                            .parallaxMax = box.max};
