@@ -127,9 +127,9 @@ private:
     }
 
     void add(const Mesh& mesh) {
-        const auto& [name, positions, attributes, skin, morph, indices, material, bounds] = mesh;
+        const auto& [name, positions, attributes, skin, jointWeights, morph, indices, material, bounds] = mesh;
         (void)bounds;  // follows from the positions
-        all(name, positions, attributes, skin, morph.vertices, morph.deltas, indices, material);
+        all(name, positions, attributes, skin, jointWeights, morph.vertices, morph.deltas, indices, material);
     }
 
     void add(const Morph::Range& range) {
@@ -143,8 +143,13 @@ private:
     }
 
     void add(const VertexSkin& vertex) {
-        const auto& [joints, weights] = vertex;
-        all(joints, weights);
+        const auto& [first, count] = vertex;
+        all(first, count);
+    }
+
+    void add(const JointWeight& moved) {
+        const auto& [joint, weight] = moved;
+        all(joint, weight);
     }
 
     void add(const Node& node) {

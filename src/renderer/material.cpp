@@ -7,21 +7,7 @@
 namespace reflet {
 
 std::array<const TextureSlot*, slotCount> textureSlots(const Material& m) {
-    return {&m.baseColorTexture,
-            &m.metallicRoughnessTexture,
-            &m.normalTexture,
-            &m.occlusionTexture,
-            &m.emissiveTexture,
-            &m.specularTexture,
-            &m.specularColorTexture,
-            &m.transmission.texture,
-            &m.transmission.thicknessTexture,
-            &m.clearcoat.texture,
-            &m.clearcoat.roughnessTexture,
-            &m.clearcoat.normalTexture,
-            &m.sheen.colorTexture,
-            &m.sheen.roughnessTexture,
-            &m.anisotropy.texture};
+    return materialTextures(m);  // in the order of the slots
 }
 
 bool isSrgb(uint slot) {

@@ -14,6 +14,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -122,6 +123,26 @@ struct Material {
     Anisotropy anisotropy;
 };
 
+/// All textures of a Material or a const Material.
+template <class M>
+auto materialTextures(M& m) {
+    return std::array{&m.baseColorTexture,
+                      &m.metallicRoughnessTexture,
+                      &m.normalTexture,
+                      &m.occlusionTexture,
+                      &m.emissiveTexture,
+                      &m.specularTexture,
+                      &m.specularColorTexture,
+                      &m.transmission.texture,
+                      &m.transmission.thicknessTexture,
+                      &m.clearcoat.texture,
+                      &m.clearcoat.roughnessTexture,
+                      &m.clearcoat.normalTexture,
+                      &m.sheen.colorTexture,
+                      &m.sheen.roughnessTexture,
+                      &m.anisotropy.texture};
+}
+
 /// Vertex attributes besides the position. Unit normal; unit tangent, w = ±1 (bitangent = w · cross(n, t)).
 struct VertexAttributes {
     vec3 normal{0, 1, 0};
@@ -137,10 +158,18 @@ struct Mesh {
     std::vector<vec3> positions;
     std::vector<VertexAttributes> attributes;  ///< one per position
     std::vector<VertexSkin> skin;              ///< one per position, or empty
+    std::vector<JointWeight> jointWeights;     ///< that `skin` refers to
     Morph morph;
     std::vector<uint32_t> indices;
     uint32_t material = 0;  ///< index into Scene::materials
     Aabb bounds;
+
+    /// The joints that move a vertex. Needs a skin.
+    [[nodiscard]] std::span<const JointWeight> jointsOf(size_t vertex) const {
+        return std::span(jointWeights).subspan(skin[vertex].first, skin[vertex].count);
+    }
+    /// Gives the next vertex its joints, whose weights sum to 1.
+    void addSkin(std::span<const JointWeight> joints);
 };
 
 /// A mesh placed in the world. Instances may share a mesh.

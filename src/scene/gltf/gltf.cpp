@@ -73,11 +73,9 @@ Scene readScene(const std::filesystem::path& path, const GltfOptions& options, G
     placeGltfNodes(document, roots, meshes, scene, report);
     checkGltfFocus(scene, report);
     makeOpaqueWhereAlphaIsOne(scene);
-    if (scene.instances.empty() && !report.firstProblem().empty()) {
-        report.fail("", "nothing is left to draw: {}", report.firstProblem());
-    }
     if (scene.instances.empty()) {
-        report.warn("empty", "scenes", "nothing will be drawn: the scene has no mesh that can be");
+        report.fail("", "nothing is left to draw: {}",
+                    report.firstProblem().empty() ? "no node of the scene shows a mesh" : report.firstProblem());
     }
     return scene;
 }

@@ -4,7 +4,10 @@
 #include "scene/gltf/document.h"
 #include "scene/scene.h"
 
+#include <array>
 #include <map>
+#include <utility>
+#include <vector>
 
 namespace reflet {
 
@@ -17,21 +20,28 @@ public:
     /// Index into Scene::materials of the material with this index in the file; < 0: glTF's default material.
     uint32_t use(int material);
 
+    /// The file's sets of texture coordinates that are the first and the second of a vertex of this material, an index
+    /// into Scene::materials.
+    [[nodiscard]] const std::array<uint32_t, 2>& uvSets(uint32_t material) const { return uvSets_[material]; }
+
 private:
     Material convert(int material);
-    TextureSlot slot(int texture, int uvSet, const tinygltf::ExtensionMap& extensions, const std::string& part);
-    TextureSlot slotOf(const tinygltf::Value& object, const std::string& name, const std::string& part);
+    TextureSlot slot(int texture, int uvSet, const tinygltf::ExtensionMap& extensions);
+    TextureSlot slotOf(const tinygltf::Value& object, const std::string& name);
     void readSpecular(Material& material, const tinygltf::ExtensionMap& extensions, const std::string& part);
     Transmission transmissionOf(const tinygltf::ExtensionMap& extensions, const std::string& part);
-    Sheen sheenOf(const tinygltf::ExtensionMap& extensions, const std::string& part);
-    Anisotropy anisotropyOf(const tinygltf::ExtensionMap& extensions, const std::string& part);
-    Clearcoat clearcoatOf(const tinygltf::ExtensionMap& extensions, const std::string& part);
-    void transformUv(TextureSlot& slot, const tinygltf::Value& transform, const std::string& part);
+    Sheen sheenOf(const tinygltf::ExtensionMap& extensions);
+    Anisotropy anisotropyOf(const tinygltf::ExtensionMap& extensions);
+    Clearcoat clearcoatOf(const tinygltf::ExtensionMap& extensions);
+    static void transformUv(TextureSlot& slot, const tinygltf::Value& transform);
     int32_t useImage(int image);
     /// Index of the file's image that the texture shows; < 0, with a warning: none that can be decoded.
     int imageOf(const tinygltf::Texture& texture, const std::string& part);
     int32_t useSampler(int sampler);
-    void setUvSet(TextureSlot& slot, int uvSet, const std::string& part);
+    /// Numbers the sets of texture coordinates that the material uses 0 and 1, and tells which these are in the file.
+    std::array<uint32_t, 2> chooseUvSets(Material& material, const std::string& part);
+    void readSpecularGlossiness(Material& material, const tinygltf::Value& extension);
+    int32_t convertGlossiness(int32_t image, float glossiness);
 
     const GltfDocument& document_;
     Scene& scene_;
@@ -39,6 +49,8 @@ private:
     std::map<int, uint32_t> materials_;  ///< from the file's index to the scene's
     std::map<int, int32_t> images_;
     std::map<int, int32_t> samplers_;
+    std::map<std::pair<int32_t, float>, int32_t> glossiness_;  ///< converted images
+    std::vector<std::array<uint32_t, 2>> uvSets_;              ///< per material of the scene
 };
 
 }  // namespace reflet

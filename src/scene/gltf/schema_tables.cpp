@@ -21,6 +21,7 @@ constexpr std::array meshoptBuffer{
 };
 constexpr std::array bufferExtensions{
     Field{.name = "EXT_meshopt_compression", .type = Type::object, .fields = meshoptBuffer},
+    Field{.name = "KHR_meshopt_compression", .type = Type::object, .fields = meshoptBuffer},
 };
 constexpr std::array buffer{
     Field{.name = "uri", .type = Type::text, .vital = true},
@@ -38,6 +39,7 @@ constexpr std::array meshopt{
 };
 constexpr std::array viewExtensions{
     Field{.name = "EXT_meshopt_compression", .type = Type::object, .fields = meshopt},
+    Field{.name = "KHR_meshopt_compression", .type = Type::object, .fields = meshopt},
 };
 constexpr std::array bufferView{
     Field{.name = "buffer", .type = Type::index, .required = true, .refersTo = "buffers"},
@@ -158,12 +160,20 @@ constexpr std::array anisotropy{
 };
 constexpr std::array dispersion{Field{.name = "dispersion", .min = 0}};
 constexpr std::array<Field, 0> unlit{};
+constexpr std::array specularGlossiness{
+    Field{.name = "diffuseFactor", .array = true, .items = 4, .min = 0, .max = 1},
+    Field{.name = "diffuseTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
+    Field{.name = "specularFactor", .array = true, .items = 3, .min = 0, .max = 1},
+    Field{.name = "glossinessFactor", .min = 0, .max = 1},
+    Field{.name = "specularGlossinessTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
+};
 constexpr std::array materialExtensions{
     Field{.name = "KHR_materials_anisotropy", .type = Type::object, .fields = anisotropy},
     Field{.name = "KHR_materials_clearcoat", .type = Type::object, .fields = clearcoat},
     Field{.name = "KHR_materials_dispersion", .type = Type::object, .fields = dispersion},
     Field{.name = "KHR_materials_emissive_strength", .type = Type::object, .fields = emissiveStrength},
     Field{.name = "KHR_materials_ior", .type = Type::object, .fields = ior},
+    Field{.name = "KHR_materials_pbrSpecularGlossiness", .type = Type::object, .fields = specularGlossiness},
     Field{.name = "KHR_materials_sheen", .type = Type::object, .fields = sheen},
     Field{.name = "KHR_materials_specular", .type = Type::object, .fields = specular},
     Field{.name = "KHR_materials_transmission", .type = Type::object, .fields = transmission},
@@ -234,9 +244,13 @@ constexpr std::array nodeLight{
 constexpr std::array instancing{
     Field{.name = "attributes", .type = Type::indexMap, .required = true, .refersTo = "accessors"},
 };
+constexpr std::array visibility{
+    Field{.name = "visible", .type = Type::boolean},
+};
 constexpr std::array nodeExtensions{
     Field{.name = "EXT_mesh_gpu_instancing", .type = Type::object, .fields = instancing},
     Field{.name = "KHR_lights_punctual", .type = Type::object, .fields = nodeLight, .without = noLamp},
+    Field{.name = "KHR_node_visibility", .type = Type::object, .fields = visibility},
 };
 constexpr std::array node{
     Field{.name = "name", .type = Type::text},
@@ -389,7 +403,24 @@ std::span<const Field> document() {
 }
 
 bool knownAttribute(std::string_view name) {
-    return std::find(attributes.begin(), attributes.end(), name) != attributes.end();
+    return std::find(attributes.begin(), attributes.end(), name) != attributes.end() ||
+           std::ranges::any_of(attributeSets, [&](std::string_view set) { return attributeSet(name, set) >= 0; });
+}
+
+int attributeSet(std::string_view name, std::string_view set) {
+    constexpr size_t mostDigits = 3;
+    if (!set.ends_with('_') || name.size() <= set.size() || !name.starts_with(set) ||
+        name.size() > set.size() + mostDigits) {
+        return -1;
+    }
+    int number = 0;
+    for (const char digit : name.substr(set.size())) {
+        if (digit < '0' || digit > '9') {
+            return -1;
+        }
+        number = 10 * number + (digit - '0');
+    }
+    return number;
 }
 
 }  // namespace reflet::gltf_schema
