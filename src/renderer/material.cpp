@@ -12,7 +12,8 @@ std::array<const TextureSlot*, slotCount> textureSlots(const Material& m) {
 
 bool isSrgb(uint slot) {
     // The specular slots often share one image: sRGB decoding leaves alpha as it is.
-    return slot == slotBaseColor || slot == slotSheenColor || (slot >= slotEmissive && slot <= slotSpecularColor);
+    return slot == slotBaseColor || slot == slotSheenColor || slot == slotDiffuseTransmissionColor ||
+           (slot >= slotEmissive && slot <= slotSpecularColor);
 }
 
 namespace {
@@ -59,6 +60,8 @@ MaterialParams materialParams(const Material& m) {
     p.sheenRoughness = m.sheen.roughness;
     p.anisotropyAlong = {std::cos(m.anisotropy.rotation), std::sin(m.anisotropy.rotation)};
     p.anisotropy = m.anisotropy.strength;
+    p.film = {m.iridescence.factor, m.iridescence.ior, m.iridescence.thinnest, m.iridescence.thickest};
+    p.diffuseTransmission = vec4(m.diffuseTransmission.color, m.diffuseTransmission.factor);
     const auto slots = textureSlots(m);
     for (size_t i = 0; i < slotCount; ++i) {
         p.textured |= slots[i]->image >= 0 ? 1U << i : 0U;
@@ -72,7 +75,7 @@ MaterialParams materialParams(const Material& m) {
 uint materialFeatures(const Material& m) {
     const MaterialParams p = materialParams(m);
     const bool textured = (p.textured & (1U << slotSpecular | 1U << slotSpecularColor)) != 0;
-    const bool reflectance = textured || p.f0 != vec3(1.0F) || p.f90 != 1.0F;
+    const bool reflectance = textured || p.f0 != vec3(1.0F) || p.f90 != 1.0F || m.iridescence.factor > 0.0F;
     return (reflectance ? materialFeatureReflectance : 0U) | (m.unlit ? materialFeatureUnlit : 0U) |
            (m.sheen.color != vec3(0.0F) ? materialFeatureSheen : 0U) |
            (m.anisotropy.strength > 0.0F ? materialFeatureAnisotropy : 0U);

@@ -48,8 +48,11 @@ RayCaster::RayCaster(const Scene& scene) : scene_(scene), meshes_(scene.meshes.s
             meshes_[instance.mesh] = bvhOf(mesh);
         }
         const mat4& toWorld = instance.objectToWorld;
+        const Material& material = scene.materials[mesh.material];
         placed_.push_back({transformed(mesh.bounds, toWorld), mat4(glm::inverse(glm::dmat4(toWorld))),
-                           glm::determinant(mat3(toWorld)) < 0.0F, scene.materials[mesh.material].doubleSided});
+                           glm::determinant(mat3(toWorld)) < 0.0F, material.doubleSided,
+                           !material.blended && !(material.transmission.factor > 0.0F) &&
+                               !(material.diffuseTransmission.factor > 0.0F)});
     }
 }
 
@@ -117,7 +120,8 @@ RayCaster::Hit RayCaster::cast(const vec3& from, const vec3& direction, Faces fa
     Hit nearest;
     const vec3 inverse = inverseOf(direction);
     for (uint32_t i = 0; i < placed_.size(); ++i) {
-        if (meets(placed_[i].bounds.min, placed_[i].bounds.max, from, inverse, nearest.distance)) {
+        const bool counts = faces != Faces::blocking || placed_[i].blocks;
+        if (counts && meets(placed_[i].bounds.min, placed_[i].bounds.max, from, inverse, nearest.distance)) {
             castInto(i, from, direction, faces, nearest);
         }
     }

@@ -24,7 +24,8 @@ public:
 
     enum class Faces : uint8_t {
         all,
-        drawn,  ///< without back faces of single-sided materials
+        drawn,     ///< without back faces of single-sided materials
+        blocking,  ///< without materials that light may pass: transmissive and blended ones
     };
 
     /// Of instances as they are at time 0: scene.nodes must be empty. The scene must outlive this object.
@@ -44,6 +45,7 @@ private:
         mat4 toObject{1.0F};
         bool mirrored = false;
         bool doubleSided = false;
+        bool blocks = true;
     };
 
     void castInto(uint32_t instance, const vec3& from, const vec3& direction, Faces faces, Hit& nearest) const;

@@ -91,6 +91,24 @@ struct Anisotropy {
     TextureSlot texture;    ///< red, green: direction, as -1..1 along tangent and bitangent; blue: strength
 };
 
+/// KHR_materials_iridescence: a thin film over the surface, whose interference colours the reflection.
+struct Iridescence {
+    float factor = 0.0F;           ///< share of the surface that it covers, 0..1; 0: none
+    float ior = 1.3F;              ///< of the film, >= 1
+    float thinnest = 100.0F;       ///< thickness where the texture is 0 [nm]
+    float thickest = 400.0F;       ///< where it is 1, or without one [nm]
+    TextureSlot texture;           ///< red
+    TextureSlot thicknessTexture;  ///< green
+};
+
+/// KHR_materials_diffuse_transmission: the share of the base's diffuse light that leaves on the other side.
+struct DiffuseTransmission {
+    float factor = 0.0F;       ///< 0..1; 0: none
+    vec3 color{1.0F};          ///< of that light, factor, 0..1
+    TextureSlot texture;       ///< alpha
+    TextureSlot colorTexture;  ///< sRGB
+};
+
 /// glTF metallic-roughness. Colours are linear.
 struct Material {
     std::string name;
@@ -121,6 +139,8 @@ struct Material {
     Clearcoat clearcoat;
     Sheen sheen;
     Anisotropy anisotropy;
+    Iridescence iridescence;
+    DiffuseTransmission diffuseTransmission;
 };
 
 /// All textures of a Material or a const Material.
@@ -140,7 +160,11 @@ auto materialTextures(M& m) {
                       &m.clearcoat.normalTexture,
                       &m.sheen.colorTexture,
                       &m.sheen.roughnessTexture,
-                      &m.anisotropy.texture};
+                      &m.anisotropy.texture,
+                      &m.iridescence.texture,
+                      &m.iridescence.thicknessTexture,
+                      &m.diffuseTransmission.texture,
+                      &m.diffuseTransmission.colorTexture};
 }
 
 /// Vertex attributes besides the position. Unit normal; unit tangent, w = ±1 (bitangent = w · cross(n, t)).
@@ -163,6 +187,10 @@ struct Mesh {
     std::vector<uint32_t> indices;
     uint32_t material = 0;  ///< index into Scene::materials
     Aabb bounds;
+    /// Of points and lines (thin_meshes.h): per position the unit vector from the point or line that it is beside; else
+    /// empty. Positions are `width` along it, until they have been made a pixel wide.
+    std::vector<vec3> outward;
+    float width = 0.0F;
 
     /// The joints that move a vertex. Needs a skin.
     [[nodiscard]] std::span<const JointWeight> jointsOf(size_t vertex) const {
@@ -252,7 +280,8 @@ struct Scene {
     std::vector<Node> nodes;            ///< parents first; empty if there are neither animations nor skins
     std::vector<Animation> animations;  ///< all play at once
     std::vector<Skin> skins;
-    std::vector<std::string> variants;  ///< names of the file's material variants, whether chosen or not
+    std::vector<std::string> extensions;  ///< that the file says it uses
+    std::vector<std::string> variants;    ///< names of the file's material variants, whether chosen or not
 
     /// World-space bounds of all instances at time 0; empty if there are none.
     [[nodiscard]] Aabb bounds() const;

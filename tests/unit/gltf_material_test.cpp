@@ -166,15 +166,6 @@ TEST(GltfMaterial, TheTextureTransformOverridesTheUvSet) {
     EXPECT_EQ(transformed({{"offset", {0, 0}}}).uvSet, 0U);
 }
 
-TEST(GltfMaterial, AThirdUvSetIsAWarning) {
-    GltfBuilder b = triangle();
-    const json texture = {{"index", b.addTexture({1, 2, 3, 4})}, {"texCoord", 2}};
-    const Loaded loaded = load(withBaseColor(std::move(b), texture));
-    EXPECT_EQ(loaded.scene.materials[0].baseColorTexture.uvSet, 0U);
-    ASSERT_EQ(loaded.warnings.size(), 1U);
-    EXPECT_NE(loaded.warnings[0].find("baseColorTexture.texCoord: UV set 0 will be used, not 2"), std::string::npos);
-}
-
 TEST(GltfMaterial, SamplersAreRead) {
     const auto samplerOf = [](const json& sampler) {
         GltfBuilder b = triangle();

@@ -15,7 +15,7 @@ const float lightestGrey = 0.6f;
 const float darkestShare = 0.1f;
 const float lightShare = 0.7f;
 const float brightestShare = 0.9f;
-// Highlights keep their drawing: so many pixels of surfaces may be lighter than this.
+// Highlights keep their drawing: so many pixels of surfaces may be lighter than this, as far as a stop less is enough.
 const float lightestHighlight = 3.0f;
 const float highlightShare = 0.99f;
 // The mean of a background that fills this share of the pixels is at most this, so that the sky behind black things is
@@ -71,7 +71,8 @@ float exposureFor(uint kind, uint total) {
     float ofTones = min(log2(middleGrey) - meterMean(kind, total, darkestShare, brightestShare),
                         log2(lightestGrey) - meterMean(kind, total, lightShare, brightestShare));
     float margin = 0.5f * (1.0f - highlightShare);
-    return min(ofTones, log2(lightestHighlight) - meterMean(kind, total, highlightShare - margin, highlightShare + margin));
+    float highlights = meterMean(kind, total, highlightShare - margin, highlightShare + margin);
+    return min(ofTones, max(log2(lightestHighlight) - highlights, ofTones - 1.0f));
 }
 
 // Stops for the whole histogram.

@@ -4,12 +4,14 @@
 #include "effects/gbuffer/gbuffer.glsl"
 #include "renderer/draw_gbuffer/draw_gbuffer.h"
 #include "shaders/shading_normal.glsl"
+#include "shaders/thin_film.glsl"
 
 layout(constant_id = 0) const uint clipped = 0u;
-layout(constant_id = 2) const uint usedSlots = 32767u;
+layout(constant_id = 2) const uint usedSlots = 524287u;
 layout(constant_id = 3) const uint surfaces = surfacesOpaque;
 layout(constant_id = 4) const uint translucent = translucentBlended;
-const bool drawsCoats = translucent >= translucentCoat;
+const bool drawsCoats = translucent >= translucentCoat && translucent <= translucentBlendedCoat;
+const bool drawsOtherSide = translucent == translucentOtherSide;
 #include "renderer/material.glsl"
 
 layout(scalar) uniform ParamsBlock { GBufferParams params; };
@@ -95,6 +97,17 @@ vec3 shadingNormal() {
     return gl_FrontFacing ? n : -n;
 }
 
+#ifdef REFLET_REFLECTANCE_TARGET
+// KHR_materials_iridescence: colours the reflectance at normal incidence, of dielectrics in the texel of the reflectance and
+// of metals in their base colour, so that the reflectance is the film's at the angle of view.
+void addFilm(float cosine, float metallic, inout vec4 reflectance, inout vec3 baseColor) {
+    vec2 film = materialFilm(uv.xy, uv.zw);
+    vec3 f0 = reflectance.rgb * dielectricF0;
+    reflectance.rgb = mix(f0, filmF0At(cosine, material.film.y, film.y, f0), film.x) / dielectricF0;
+    baseColor = mix(baseColor, filmF0At(cosine, material.film.y, film.y, baseColor), film.x * metallic);
+}
+#endif
+
 // Share of the surface that is coated, and the coat's roughness.
 vec2 clearCoat() {
     vec2 coat = vec2(material.coat, material.coatRoughness);
@@ -124,7 +137,8 @@ bool isDrawn(float alpha, bool kept) {
         return opaque;
     }
     bool glass = translucent == translucentGlass || translucent == translucentGlassCoat;
-    return isPeeled() && (glass ? kept : translucent == translucentCoat ? opaque : isTranslucent(alpha));
+    bool glassKept = isBlended() ? alpha >= invisibleAlpha : kept;
+    return isPeeled() && (glass ? glassKept : (translucent == translucentCoat || drawsOtherSide) ? opaque : isTranslucent(alpha));
 }
 
 void main() {
@@ -139,6 +153,9 @@ void main() {
     bool kept = materialBaseColor(uv.xy, uv.zw, vertexColor, baseColor);
     if (!isDrawn(baseColor.a, kept)) {
         discard;
+    }
+    if (translucent == translucentGlass && !isBlended()) {
+        baseColor.a = 1.0;  // what a mask leaves is there
     }
     if (translucent == translucentGlass) {  // what is left of the diffuse base; metals stay as they are
         baseColor.rgb *= 1.0 - materialTransmission(uv.xy, uv.zw) * (1.0 - material.metallic);
@@ -167,14 +184,30 @@ void main() {
     }
     if (drawsCoats) {
         vec2 coat = clearCoat();
-        baseColor = vec4(vec3(0.0), coat.x);
+        float covered = translucent == translucentGlassCoat && isBlended() ? baseColor.a : 1.0;
+        baseColor = vec4(vec3(0.0), coat.x * covered);
         roughnessMetallic = vec2(coat.y, 0.0);
         occlusion = 1.0;
         outEmissive = vec3(0.0);
     }
 #ifdef REFLET_REFLECTANCE_TARGET
     outReflectance = materialReflectance(uv.xy, uv.zw);
+    if (!drawsCoats && !drawsOtherSide && notInlined(uint(material.film.x > 0.0), gl_FragCoord) != 0u) {
+        addFilm(max(dot(n, normalize(towardEye())), 0.0), roughnessMetallic.y, outReflectance, baseColor.rgb);
+    }
 #endif
+    if (drawsOtherSide) {
+        vec4 passes = materialDiffuseTransmission(uv.xy, uv.zw);
+        baseColor.rgb = passes.rgb * (passes.a * (1.0 - roughnessMetallic.y));
+        n = -n;
+        geometric = -geometric;
+        roughnessMetallic = vec2(1.0, 0.0);
+        occlusion = 1.0;
+        outEmissive = vec3(0.0);
+        flags = materialFlagLambert;
+    } else if (notInlined(uint(material.diffuseTransmission.a > 0.0), gl_FragCoord) != 0u) {
+        baseColor.rgb *= 1.0 - materialDiffuseTransmission(uv.xy, uv.zw).a * (1.0 - roughnessMetallic.y);
+    }
 #ifdef REFLET_LAYERS_TARGET
     vec2 anisotropy = anisotropyAround(unpackUnitVector(packUnitVector(n)), roughnessMetallic.x);
     outLayers = packLayers(materialSheen(uv.xy, uv.zw), anisotropy);

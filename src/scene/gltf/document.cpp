@@ -49,10 +49,8 @@ struct UnsupportedExtension {
     std::string_view name;
     std::string_view consequence;
 };
-constexpr std::array<UnsupportedExtension, 5> unsupportedExtensions{
-    {{"KHR_materials_diffuse_transmission", "translucent surfaces will be drawn opaque"},
-     {"KHR_materials_iridescence", "iridescence will be missing"},
-     {"EXT_texture_avif", "AVIF textures will be missing"},
+constexpr std::array<UnsupportedExtension, 3> unsupportedExtensions{
+    {{"EXT_texture_avif", "AVIF textures will be missing"},
      {"KHR_animation_pointer", "animated materials, lamps and cameras will stand still"},
      {"EXT_lights_image_based", "image-based light will be missing"}}};
 

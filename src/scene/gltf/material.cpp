@@ -59,6 +59,16 @@ vec3 emissiveOf(const tinygltf::Material& source) {
     return glm::dvec3(factor[0], factor[1], factor[2]) * strength;
 }
 
+void makeUnlit(Material& material) {
+    material.unlit = true;
+    material.transmission = {};
+    material.clearcoat = {};
+    material.sheen = {};
+    material.anisotropy = {};
+    material.iridescence = {};
+    material.diffuseTransmission = {};
+}
+
 /// KHR_materials_ior: 0 is allowed and means total reflection.
 float iorOf(const tinygltf::Value& extension, const std::string& part, GltfReport& report) {
     const double ior = numberOr(extension, "ior", defaultIor);
@@ -72,15 +82,18 @@ float iorOf(const tinygltf::Value& extension, const std::string& part, GltfRepor
 
 }  // namespace
 
-uint32_t GltfMaterials::use(int material) {
+uint32_t GltfMaterials::use(int material, bool lit) {
     const int key = std::max(material, -1);
-    const auto found = materials_.find(key);
+    const auto found = materials_.find({key, lit});
     if (found != materials_.end()) {
         return found->second;
     }
     scene_.materials.push_back(key < 0 ? Material{} : convert(key));
+    if (!lit) {
+        makeUnlit(scene_.materials.back());
+    }
     uvSets_.push_back(chooseUvSets(scene_.materials.back(), fmt::format("materials[{}]", key)));
-    return materials_[key] = static_cast<uint32_t>(scene_.materials.size() - 1);
+    return materials_[{key, lit}] = static_cast<uint32_t>(scene_.materials.size() - 1);
 }
 
 Material GltfMaterials::convert(int material) {
@@ -117,19 +130,21 @@ Material GltfMaterials::convert(int material) {
     result.emissiveTexture = slotOf(source.emissiveTexture);
     readSpecular(result, source.extensions, part + ".extensions.");
     result.transmission = transmissionOf(source.extensions, part + ".extensions.");
+    // Both sides of a sheet let light through, so both are seen: a closed one tints what is behind it twice.
+    result.doubleSided =
+        result.doubleSided || (result.transmission.factor > 0.0F && !(result.transmission.thickness > 0.0F));
     result.clearcoat = clearcoatOf(source.extensions);
     result.sheen = sheenOf(source.extensions);
     result.anisotropy = anisotropyOf(source.extensions);
+    result.iridescence = iridescenceOf(source.extensions);
+    result.diffuseTransmission = diffuseTransmissionOf(source.extensions);
     if (const auto old = source.extensions.find("KHR_materials_pbrSpecularGlossiness");
         old != source.extensions.end()) {
         readSpecularGlossiness(result, old->second);
     }
     result.unlit = source.extensions.contains("KHR_materials_unlit");
     if (result.unlit) {
-        result.transmission = {};
-        result.clearcoat = {};
-        result.sheen = {};
-        result.anisotropy = {};
+        makeUnlit(result);
     }
     if (source.extras.Has("camera")) {
         result.unlit = false;

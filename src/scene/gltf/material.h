@@ -17,8 +17,9 @@ public:
     GltfMaterials(const GltfDocument& document, Scene& scene, GltfReport& report)
         : document_(document), scene_(scene), report_(report) {}
 
-    /// Index into Scene::materials of the material with this index in the file; < 0: glTF's default material.
-    uint32_t use(int material);
+    /// Index into Scene::materials of the material with this index in the file; < 0: glTF's default material. lit:
+    /// false for points and lines without normals, which show their base colour.
+    uint32_t use(int material, bool lit = true);
 
     /// The file's sets of texture coordinates that are the first and the second of a vertex of this material, an index
     /// into Scene::materials.
@@ -32,6 +33,8 @@ private:
     Transmission transmissionOf(const tinygltf::ExtensionMap& extensions, const std::string& part);
     Sheen sheenOf(const tinygltf::ExtensionMap& extensions);
     Anisotropy anisotropyOf(const tinygltf::ExtensionMap& extensions);
+    Iridescence iridescenceOf(const tinygltf::ExtensionMap& extensions);
+    DiffuseTransmission diffuseTransmissionOf(const tinygltf::ExtensionMap& extensions);
     Clearcoat clearcoatOf(const tinygltf::ExtensionMap& extensions);
     static void transformUv(TextureSlot& slot, const tinygltf::Value& transform);
     int32_t useImage(int image);
@@ -46,7 +49,7 @@ private:
     const GltfDocument& document_;
     Scene& scene_;
     GltfReport& report_;
-    std::map<int, uint32_t> materials_;  ///< from the file's index to the scene's
+    std::map<std::pair<int, bool>, uint32_t> materials_;  ///< from the file's index, and lit, to the scene's
     std::map<int, int32_t> images_;
     std::map<int, int32_t> samplers_;
     std::map<std::pair<int32_t, float>, int32_t> glossiness_;  ///< converted images

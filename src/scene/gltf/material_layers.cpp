@@ -1,5 +1,6 @@
 // Converts the material extensions for glass and layers: KHR_materials_transmission, KHR_materials_volume,
-// KHR_materials_dispersion, KHR_materials_clearcoat, KHR_materials_sheen and KHR_materials_anisotropy.
+// KHR_materials_dispersion, KHR_materials_clearcoat, KHR_materials_sheen, KHR_materials_anisotropy,
+// KHR_materials_iridescence and KHR_materials_diffuse_transmission.
 #include "scene/gltf/material.h"
 
 namespace reflet {
@@ -73,6 +74,36 @@ Anisotropy GltfMaterials::anisotropyOf(const tinygltf::ExtensionMap& extensions)
     result.strength = floatOr(anisotropy, "anisotropyStrength", 0.0);
     result.rotation = floatOr(anisotropy, "anisotropyRotation", 0.0);
     result.texture = slotOf(anisotropy, "anisotropyTexture");
+    return result;
+}
+
+Iridescence GltfMaterials::iridescenceOf(const tinygltf::ExtensionMap& extensions) {
+    Iridescence result;
+    const auto found = extensions.find("KHR_materials_iridescence");
+    if (found == extensions.end()) {
+        return result;
+    }
+    const tinygltf::Value& film = found->second;
+    result.factor = floatOr(film, "iridescenceFactor", 0.0);
+    result.ior = floatOr(film, "iridescenceIor", result.ior);
+    result.thinnest = floatOr(film, "iridescenceThicknessMinimum", result.thinnest);
+    result.thickest = floatOr(film, "iridescenceThicknessMaximum", result.thickest);
+    result.texture = slotOf(film, "iridescenceTexture");
+    result.thicknessTexture = slotOf(film, "iridescenceThicknessTexture");
+    return result;
+}
+
+DiffuseTransmission GltfMaterials::diffuseTransmissionOf(const tinygltf::ExtensionMap& extensions) {
+    DiffuseTransmission result;
+    const auto found = extensions.find("KHR_materials_diffuse_transmission");
+    if (found == extensions.end()) {
+        return result;
+    }
+    const tinygltf::Value& transmission = found->second;
+    result.factor = floatOr(transmission, "diffuseTransmissionFactor", 0.0);
+    result.color = colorOr(transmission, "diffuseTransmissionColorFactor", result.color);
+    result.texture = slotOf(transmission, "diffuseTransmissionTexture");
+    result.colorTexture = slotOf(transmission, "diffuseTransmissionColorTexture");
     return result;
 }
 

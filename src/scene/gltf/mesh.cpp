@@ -4,6 +4,7 @@
 #include "scene/gltf/morph.h"
 #include "scene/gltf/normals.h"
 #include "scene/gltf/primitive.h"
+#include "scene/thin_meshes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,15 +63,16 @@ glm::u16vec4 colorOf(vec4 value, const AccessorView& view) {
 }
 
 /// Leaves out the triangles whose corners are not all finite; their vertices stay, at the place of another one.
-void dropInvalidTriangles(Mesh& mesh, std::vector<uint32_t>& triangles, const std::string& part,
+void dropInvalidTriangles(Mesh& mesh, std::vector<uint32_t>& triangles, size_t corners, const std::string& part,
                           const GltfReport& report) {
     const auto isPlaced = [&](uint32_t v) { return isFinite(vec4(mesh.positions[v], 1.0F)); };
     size_t kept = 0;
-    for (size_t i = 0; i < triangles.size(); i += 3) {
+    for (size_t i = 0; i < triangles.size(); i += corners) {
         const auto corner = triangles.begin() + static_cast<std::ptrdiff_t>(i);
-        if (std::all_of(corner, corner + 3, isPlaced)) {
-            std::copy(corner, corner + 3, triangles.begin() + static_cast<std::ptrdiff_t>(kept));
-            kept += 3;
+        const auto end = corner + static_cast<std::ptrdiff_t>(corners);
+        if (std::all_of(corner, end, isPlaced)) {
+            std::copy(corner, end, triangles.begin() + static_cast<std::ptrdiff_t>(kept));
+            kept += corners;
         }
     }
     triangles.resize(kept);
@@ -104,7 +106,7 @@ void readPositions(Mesh& mesh, PrimitiveSource& source, const std::vector<uint32
         }
     });
     if (!isValid) {
-        dropInvalidTriangles(mesh, source.triangles, part, report);
+        dropInvalidTriangles(mesh, source.triangles, source.corners, part, report);
     }
 }
 
@@ -268,11 +270,6 @@ void GltfMeshes::loadPrimitive(size_t mesh, size_t primitive) {
     if (source.mode < 0) {
         return;  // a stand-in
     }
-    if (source.mode < TINYGLTF_MODE_TRIANGLES) {
-        report_.warn("points and lines", part + ".mode",
-                     "points and lines will not be drawn: only triangles are supported");
-        return;
-    }
     if (!source.attributes.contains("POSITION")) {
         report_.fail(part + ".attributes", "has no POSITION");
     }
@@ -281,11 +278,22 @@ void GltfMeshes::loadPrimitive(size_t mesh, size_t primitive) {
     report_.charge(part, used.size() * vertexBytes + document_.model.meshes[mesh].name.size());
     Mesh result;
     result.name = document_.model.meshes[mesh].name;
-    result.material = materials_.use(materialOf(source, variant_));
+    const bool lit = opened.corners == 3 || opened.find("NORMAL") != nullptr;
+    result.material = materials_.use(materialOf(source, variant_), lit);
     readPositions(result, opened, used, part, report_);
     readAttributes(result, opened, materials_.uvSets(result.material), used, part, report_);
     readSkin(result, opened, used, part, report_);
     readGltfMorph(result, document_, source, opened, used, part, report_);
+    if (opened.corners < 3) {
+        report_.charge(part, opened.triangles.size() * 6 * vertexBytes);
+        makeThin(result, opened.triangles, opened.corners);
+        if (size_t broken = lit ? repairNormals(result) : 0; broken > 0) {
+            report_.warn("normals", part + ".attributes.NORMAL", "{} vertices will get other normals", broken);
+        }
+        meshes_[mesh].push_back(static_cast<uint32_t>(scene_.meshes.size()));
+        scene_.meshes.push_back(std::move(result));
+        return;
+    }
     result.indices = std::move(opened.triangles);
     completeFrames(result, opened, tangentTexture(scene_.materials[result.material]), part, report_);
     meshes_[mesh].push_back(static_cast<uint32_t>(scene_.meshes.size()));

@@ -178,6 +178,37 @@ std::vector<uint32_t> makeTriangles(int mode, const std::vector<uint32_t>* indic
     return result;
 }
 
+/// Points, or the two ends of each segment. Without `indices`: the vertices in order.
+std::vector<uint32_t> makeThinElements(int mode, const std::vector<uint32_t>* indices, uint32_t vertices,
+                                       const std::string& part, GltfReport& report) {
+    const uint32_t count = indices != nullptr ? static_cast<uint32_t>(indices->size()) : vertices;
+    report.charge(part, uint64_t(count) * 2 * sizeof(uint32_t));
+    const auto at = [&](uint32_t i) { return indices != nullptr ? (*indices)[i] : i; };
+    std::vector<uint32_t> result;
+    const auto addLine = [&](uint32_t a, uint32_t b) {
+        if (at(a) != noVertex && at(b) != noVertex) {
+            result.insert(result.end(), {at(a), at(b)});
+        }
+    };
+    const uint32_t step = mode == TINYGLTF_MODE_LINE ? 2 : 1;
+    for (uint32_t i = 0; mode == TINYGLTF_MODE_POINTS && i < count; ++i) {
+        if (at(i) != noVertex) {
+            result.push_back(at(i));
+        }
+    }
+    for (uint32_t i = 0; mode != TINYGLTF_MODE_POINTS && i + 1 < count; i += step) {
+        addLine(i, i + 1);
+    }
+    if (mode == TINYGLTF_MODE_LINE_LOOP && count > 2) {
+        addLine(count - 1, 0);
+    }
+    if (result.empty()) {
+        report.fail(part, "{} {} make no {}", count, indices != nullptr ? "indices" : "vertices",
+                    mode == TINYGLTF_MODE_POINTS ? "point" : "line");
+    }
+    return result;
+}
+
 }  // namespace
 
 PrimitiveSource openPrimitive(const GltfDocument& document, const tinygltf::Primitive& primitive,
@@ -198,11 +229,16 @@ PrimitiveSource openPrimitive(const GltfDocument& document, const tinygltf::Prim
                         source.draco.vertices);
         }
         source.triangles = std::move(source.draco.indices);
-    } else if (primitive.indices >= 0) {
-        const std::vector<uint32_t> indices = readIndices(document, primitive.indices, vertices, report);
-        source.triangles = makeTriangles(primitive.mode, &indices, vertices, part, report);
     } else {
-        source.triangles = makeTriangles(primitive.mode, nullptr, vertices, part, report);
+        std::vector<uint32_t> indices;
+        if (primitive.indices >= 0) {
+            indices = readIndices(document, primitive.indices, vertices, report);
+        }
+        const std::vector<uint32_t>* listed = primitive.indices >= 0 ? &indices : nullptr;
+        const bool thin = primitive.mode < TINYGLTF_MODE_TRIANGLES;
+        source.corners = !thin ? 3 : primitive.mode == TINYGLTF_MODE_POINTS ? 1 : 2;
+        source.triangles = thin ? makeThinElements(primitive.mode, listed, vertices, part, report)
+                                : makeTriangles(primitive.mode, listed, vertices, part, report);
     }
     return source;
 }

@@ -160,6 +160,20 @@ constexpr std::array anisotropy{
 };
 constexpr std::array dispersion{Field{.name = "dispersion", .min = 0}};
 constexpr std::array<Field, 0> unlit{};
+constexpr std::array iridescence{
+    Field{.name = "iridescenceFactor", .min = 0, .max = 1},
+    Field{.name = "iridescenceTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
+    Field{.name = "iridescenceIor", .min = 1},
+    Field{.name = "iridescenceThicknessMinimum", .min = 0},
+    Field{.name = "iridescenceThicknessMaximum", .min = 0},
+    Field{.name = "iridescenceThicknessTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
+};
+constexpr std::array diffuseTransmission{
+    Field{.name = "diffuseTransmissionFactor", .min = 0, .max = 1},
+    Field{.name = "diffuseTransmissionTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
+    Field{.name = "diffuseTransmissionColorFactor", .array = true, .items = 3, .min = 0, .max = 1},
+    Field{.name = "diffuseTransmissionColorTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
+};
 constexpr std::array specularGlossiness{
     Field{.name = "diffuseFactor", .array = true, .items = 4, .min = 0, .max = 1},
     Field{.name = "diffuseTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
@@ -170,9 +184,11 @@ constexpr std::array specularGlossiness{
 constexpr std::array materialExtensions{
     Field{.name = "KHR_materials_anisotropy", .type = Type::object, .fields = anisotropy},
     Field{.name = "KHR_materials_clearcoat", .type = Type::object, .fields = clearcoat},
+    Field{.name = "KHR_materials_diffuse_transmission", .type = Type::object, .fields = diffuseTransmission},
     Field{.name = "KHR_materials_dispersion", .type = Type::object, .fields = dispersion},
     Field{.name = "KHR_materials_emissive_strength", .type = Type::object, .fields = emissiveStrength},
     Field{.name = "KHR_materials_ior", .type = Type::object, .fields = ior},
+    Field{.name = "KHR_materials_iridescence", .type = Type::object, .fields = iridescence},
     Field{.name = "KHR_materials_pbrSpecularGlossiness", .type = Type::object, .fields = specularGlossiness},
     Field{.name = "KHR_materials_sheen", .type = Type::object, .fields = sheen},
     Field{.name = "KHR_materials_specular", .type = Type::object, .fields = specular},

@@ -72,6 +72,8 @@ constexpr auto knownExtensions = std::to_array<std::string_view>({
     "KHR_node_visibility",
     "KHR_meshopt_compression",
     "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_iridescence",
+    "KHR_materials_diffuse_transmission",
 });
 
 /// Extensions that do not change the image: what they describe is not drawn, or they choose among equals.
