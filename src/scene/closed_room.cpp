@@ -55,8 +55,9 @@ float openness(const RayCaster& caster, const std::vector<vec3>& places) {
 
 struct Candidate {
     vec3 position{0.0F};
-    size_t lights = 0;  ///< places that it sees
-    float distance = 0.0F;
+    size_t lights = 0;       ///< places that it sees
+    float distance = 0.0F;   ///< mean, of these
+    float clearance = 0.0F;  ///< to the nearest surface
 };
 
 Candidate tried(const RayCaster& caster, const std::vector<vec3>& places, const vec3& position) {
@@ -67,6 +68,10 @@ Candidate tried(const RayCaster& caster, const std::vector<vec3>& places, const 
             ++candidate.lights;
             sum += glm::distance(position, place);
         }
+    }
+    candidate.clearance = std::numeric_limits<float>::infinity();
+    for (int i = 0; i < rays; ++i) {
+        candidate.clearance = std::min(candidate.clearance, caster.cast(position, spread(i, rays)).distance);
     }
     candidate.distance = sum / static_cast<float>(std::max<size_t>(candidate.lights, 1));
     return candidate;
@@ -89,15 +94,17 @@ std::optional<Lamp> lampForClosedRoom(const Scene& scene, const Camera& camera, 
     for (const vec3& place : places) {
         box.add(place);
     }
-    Candidate best;
+    std::vector<Candidate> candidates;
+    size_t most = 0;
     constexpr int steps = 5;  // along each side
     for (int i = 0; i < steps * steps * steps; ++i) {
         const vec3 part(i % steps, i / steps % steps, i / steps / steps);
-        const Candidate next = tried(caster, places, box.min + box.size() * (part + 0.5F) / float(steps));
-        const bool nearer = next.lights == best.lights &&
-                            glm::distance(next.position, box.center()) < glm::distance(best.position, box.center());
-        best = next.lights > best.lights || nearer ? next : best;
+        candidates.push_back(tried(caster, places, box.min + box.size() * (part + 0.5F) / float(steps)));
+        most = std::max(most, candidates.back().lights);
     }
+    // Of those that light nearly as much as any, the one that is farthest from what it would burn.
+    std::erase_if(candidates, [&](const Candidate& c) { return 10 * c.lights < 8 * most; });
+    const Candidate best = *std::ranges::max_element(candidates, {}, &Candidate::clearance);
     Lamp lamp;
     lamp.name = "added";
     lamp.position = best.position;

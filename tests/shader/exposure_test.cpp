@@ -136,7 +136,7 @@ TEST_F(Exposure, IsThatOfTheBackgroundWhereThereIsNothingElse) {
     Seen dot = sky;
     dot.with({5, 5}, {6, 6}, vec3(0.02F));  // 1 of 2048 pixels has a twentieth of the weight
     const float weight = 100.0F / 2048.0F;
-    expectBoth(dot, std::log2(grey) - (1.0F - weight) * 1.0F - weight * std::log2(0.02F), "a dot before the sky");
+    expectBoth(dot, (1.0F - weight) * std::log2(grey / 2.0F) + weight * std::log2(0.6F / 2.0F), "a dot before the sky");
 }
 
 TEST_F(Exposure, LeavesOutBlackAndBurntPixels) {

@@ -58,8 +58,8 @@ TEST(GltfMaterial, AMaterialThatShowsACameraEmitsNothingElse) {
 }
 
 TEST(GltfMaterial, MaskHasItsCutoff) {
-    EXPECT_EQ(materialOf(withMaterial({{"alphaMode", "MASK"}})).alphaCutoff, 0.5F);
-    EXPECT_EQ(materialOf(withMaterial({{"alphaMode", "MASK"}, {"alphaCutoff", 0.25}})).alphaCutoff, 0.25F);
+    EXPECT_NEAR(materialOf(withMaterial({{"alphaMode", "MASK"}})).alphaCutoff, 0.5F, 0.0011F);
+    EXPECT_NEAR(materialOf(withMaterial({{"alphaMode", "MASK"}, {"alphaCutoff", 0.25}})).alphaCutoff, 0.25F, 0.0011F);
     EXPECT_EQ(materialOf(withMaterial({{"alphaMode", "OPAQUE"}, {"alphaCutoff", 0.25}})).alphaCutoff, 0.0F);
     EXPECT_FALSE(materialOf(withMaterial({{"alphaMode", "MASK"}})).blended);
 }

@@ -266,9 +266,9 @@ TEST(Gltf, APrimitiveWithoutPositionsIsLeftOutWithAWarning) {
     const Loaded loaded = load(std::move(b));
     EXPECT_EQ(loaded.scene.meshes.size(), 1U);
     ASSERT_EQ(loaded.warnings.size(), 1U);
-    EXPECT_NE(loaded.warnings[0].find(
-                  "meshes[0].primitives[1].attributes: the primitive will not be drawn: it has no POSITION"),
-              std::string::npos);
+    EXPECT_NE(
+        loaded.warnings[0].find("meshes[0].primitives[1].attributes: the primitive will not be drawn: has no POSITION"),
+        std::string::npos);
 }
 
 }  // namespace
