@@ -44,7 +44,7 @@ vec3 axisRay(int side, const vec2& aside) {
 }
 
 constexpr int sides = 6;
-constexpr float leastSurrounded = 0.3F;  // below, the sky lights nearly all that is seen, and a probe would hide it
+constexpr float leastSurrounded = 0.2F;  // below, the sky lights nearly all that is seen, and a probe would hide it
 constexpr float clearance = 0.1F;  // smallest distance of surfaces to a probe, relative to the cell's shortest side
 
 using Surroundings = std::array<Hit, sides>;
@@ -160,13 +160,22 @@ float surrounded(const Bodies& bodies, const Aabb& bounds, const vec3& eye) {
     return rays > 0 ? static_cast<float>(met) / static_cast<float>(rays) : 1.0F;
 }
 
-// Of what is in its place, the camera sees nothing: it is in a thing, or in a room next door that is closed.
+// The camera sees nothing of the closed space that it is in: that is in a thing, or behind its walls.
 bool isHidden(const Bodies& bodies, const vec3& p, const vec3& eye) {
     constexpr float closed = 0.1F;
+    constexpr int count = 64;
     if (openness(bodies, p) > closed || openness(bodies, eye) < 0.5F) {
         return false;
     }
-    return bodies.rays.cast(eye, p - eye, RayCaster::Faces::drawn).distance < 1.0F;
+    for (int i = 0; i < count; ++i) {
+        const vec3 direction = spread(i, count);
+        const Hit wall = bodies.trace(p, direction);
+        const vec3 place = p + direction * (wall ? 0.98F * wall.distance : 0.0F);
+        if (!(bodies.rays.cast(eye, place - eye, RayCaster::Faces::drawn).distance < 1.0F)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 Aabb boxAround(const Bodies& bodies, const vec3& p, const Aabb& sceneBounds) {

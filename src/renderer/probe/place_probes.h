@@ -8,7 +8,7 @@
 
 namespace reflet {
 
-/// At most `count` probes, deterministic. None for an empty scene, and none where other surfaces light less than 0.3 of
+/// At most `count` probes, deterministic. None for an empty scene, and none where other surfaces light less than 0.2 of
 /// what the camera sees, as of a single object: a probe beside it would hide the sky from its other side. The scene's
 /// bounds are split into cells along their longest sides, with a probe at each cell's centre. Probes inside of objects
 /// or too close to them are moved out, and left out where there is no way out or where the camera sees nothing of the
