@@ -14,17 +14,19 @@ float filmF0(float inner, float outer) {
     return root * root;
 }
 
-// Sensitivity of linear RGB at an optical path difference [m] with a phase shift: Gaussians in Fourier space, fitted to the
-// CIE colour matching functions in that paper.
+// Sensitivity of linear RGB at an optical path difference [m] with a phase shift: Gaussians in Fourier space, fitted to
+// the CIE colour matching functions in that paper.
 vec3 filmSensitivity(float path, vec3 shift) {
     float phase = 2.0 * filmPi * path;
     vec3 height = vec3(5.4856e-13, 4.4201e-13, 5.2481e-13);
     vec3 middle = vec3(1.6810e6, 1.7953e6, 2.2084e6);
     vec3 variance = vec3(4.3278e9, 9.3046e9, 6.6121e9);
     vec3 xyz = height * sqrt(2.0 * filmPi * variance) * cos(middle * phase + shift) * exp(-variance * phase * phase);
-    xyz.x += 9.7470e-14 * sqrt(2.0 * filmPi * 4.5282e9) * cos(2.2399e6 * phase + shift.x) * exp(-4.5282e9 * phase * phase);
+    float second = 9.7470e-14 * sqrt(2.0 * filmPi * 4.5282e9);
+    xyz.x += second * cos(2.2399e6 * phase + shift.x) * exp(-4.5282e9 * phase * phase);
     xyz /= 1.0685e-7;
-    const mat3 toRgb = mat3(3.2404542, -0.9692660, 0.0556434, -1.5371385, 1.8760108, -0.2040259, -0.4985314, 0.0415560, 1.0572252);
+    const mat3 toRgb = mat3(3.2404542, -0.9692660, 0.0556434, -1.5371385, 1.8760108, -0.2040259, -0.4985314, 0.0415560,
+                            1.0572252);
     return toRgb * xyz;
 }
 

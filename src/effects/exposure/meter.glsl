@@ -85,7 +85,8 @@ float meteredExposure() {
     }
     float all = float(surfaces + background);
     float slack = windowStops * (1.0f - smoothstep(windowShare, backgroundShare, float(background) / all));
-    float limit = log2(lightestBackground) - meterMean(meterBackground, background, darkestShare, brightestShare) + slack;
+    float seen = meterMean(meterBackground, background, darkestShare, brightestShare);
+    float limit = log2(lightestBackground) - seen + slack;
     float weight = min(float(surfaces) / (enoughSurface * all), 1.0f);
     return mix(exposureFor(meterBackground, background), min(ofSurfaces, limit), weight);
 }

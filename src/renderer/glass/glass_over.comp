@@ -1,4 +1,5 @@
-// Composites a layer of glass over the light behind it. In: the layer's depth, its coverage (in the image of its motion) and its own light; the light at the ends of
+// Composites a layer of glass over the light behind it. In: the layer's depth, its coverage (in the image of its
+// motion) and its own light; the light at the ends of
 // its refracted rays and their shares; the light behind. Out: the sum; its alpha is that of the light behind.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
