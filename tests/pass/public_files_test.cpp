@@ -33,7 +33,8 @@ Scene overFloor(const Material& material, Mesh mesh) {
     return scene;
 }
 
-/// The material as the reference shows it, and clearly apart from another one.
+/// The material as the reference shows it, and clearly apart from another one. Takes seconds: each material compiles
+/// shaders of its own in a CPU driver, and the reference traces 128 samples a pixel.
 void expectLikeReference(const Material& material, const Material& otherwise, const Mesh& mesh, const View& view) {
     ReferenceOptions options;
     options.samples = 128;
