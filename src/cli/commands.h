@@ -14,5 +14,6 @@ void addDefocusCommand(CLI::App& app);
 void addReportCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
 void addListCommand(CLI::App& app);
+void addInfoCommand(CLI::App& app);
 
 }  // namespace reflet

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "capture/pictures.h"
 #include "cli/output_files.h"
+#include "scene/gltf/gltf.h"
 
 #include <CLI/CLI.hpp>
 
@@ -18,8 +19,22 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         .add_option("--preset", options.preset,
                     "Preset of settings (see reflet list presets) [balanced; stills: see --effort]")
         ->type_name("P");
-    command.add_option("--variant", options.variant, "Material variant of the glTF file (see reflet list variants)")
-        ->type_name("NAME");
+    command
+        .add_option("--variant", options.variant,
+                    "Material variant of the glTF file; list: prints the names of its variants and ends")
+        ->type_name("NAME|list");
+    command.add_option("--up", options.up, "Axis of the glTF file that points up; glTF says Y, some programs write Z")
+        ->check(CLI::IsMember({"Y", "Z"}))
+        ->type_name("Y|Z")
+        ->capture_default_str();
+    command.parse_complete_callback([&options] {
+        if (options.variant == "list") {
+            for (const std::string& name : loadGltf(options.scene).variants) {
+                fmt::print("{}\n", name);
+            }
+            throw CLI::Success();
+        }
+    });
     addViewOptions(command, options);
 }
 

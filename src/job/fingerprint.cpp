@@ -93,11 +93,12 @@ private:
         const auto& [name, baseColor, metallic, roughness, emissive, normalScale, occlusionStrength, alphaCutoff,
                      blended, doubleSided, unlit, ior, specular, specularColor, camera, baseColorTexture,
                      metallicRoughnessTexture, normalTexture, occlusionTexture, emissiveTexture, specularTexture,
-                     specularColorTexture, transmission, clearcoat, sheen, anisotropy] = material;
+                     specularColorTexture, transmission, clearcoat, sheen, anisotropy, iridescence,
+                     diffuseTransmission] = material;
         all(name, baseColor, metallic, roughness, emissive, normalScale, occlusionStrength, alphaCutoff, blended,
             doubleSided, unlit, ior, specular, specularColor, camera, baseColorTexture, metallicRoughnessTexture,
             normalTexture, occlusionTexture, emissiveTexture, specularTexture, specularColorTexture, transmission,
-            clearcoat, sheen, anisotropy);
+            clearcoat, sheen, anisotropy, iridescence, diffuseTransmission);
     }
 
     void add(const Transmission& transmission) {
@@ -121,15 +122,28 @@ private:
         all(strength, rotation, texture);
     }
 
+    void add(const Iridescence& iridescence) {
+        const auto& [factor, ior, thinnest, thickest, texture, thicknessTexture] = iridescence;
+        all(factor, ior, thinnest, thickest, texture, thicknessTexture);
+    }
+
+    void add(const DiffuseTransmission& transmission) {
+        const auto& [factor, color, texture, colorTexture] = transmission;
+        all(factor, color, texture, colorTexture);
+    }
+
     void add(const VertexAttributes& vertex) {
         const auto& [normal, tangent, uv0, uv1, color] = vertex;
         all(normal, tangent, uv0, uv1, color);
     }
 
     void add(const Mesh& mesh) {
-        const auto& [name, positions, attributes, skin, morph, indices, material, bounds] = mesh;
+        const auto& [name, positions, attributes, skin, jointWeights, morph, indices, material, bounds, outward,
+                     width] = mesh;
         (void)bounds;  // follows from the positions
-        all(name, positions, attributes, skin, morph.vertices, morph.deltas, indices, material);
+        (void)width;
+        (void)outward;  // nor are points and lines otherwise than their positions
+        all(name, positions, attributes, skin, jointWeights, morph.vertices, morph.deltas, indices, material);
     }
 
     void add(const Morph::Range& range) {
@@ -143,8 +157,13 @@ private:
     }
 
     void add(const VertexSkin& vertex) {
-        const auto& [joints, weights] = vertex;
-        all(joints, weights);
+        const auto& [first, count] = vertex;
+        all(first, count);
+    }
+
+    void add(const JointWeight& moved) {
+        const auto& [joint, weight] = moved;
+        all(joint, weight);
     }
 
     void add(const Node& node) {
@@ -211,7 +230,8 @@ private:
 
 void addTo(Fingerprint& print, const Scene& scene) {
     const auto& [name, origin, fromFile, images, samplers, materials, meshes, instances, lamps, cameras, sun,
-                 environment, nodes, animations, skins, variants] = scene;
+                 environment, nodes, animations, skins, extensions, variants] = scene;
+    (void)extensions;
     (void)origin;    // of coordinates that are not in the picture
     (void)fromFile;  // it does not change radiance
     (void)variants;  // names alone

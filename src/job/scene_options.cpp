@@ -1,6 +1,7 @@
 // Scene, view, size and settings as options name them.
 #include "job/scene_options.h"
 
+#include "base/color.h"
 #include "base/error.h"
 #include "base/json.h"
 #include "base/message.h"
@@ -8,10 +9,13 @@
 #include "renderer/presets.h"
 #include "scene/background.h"
 #include "scene/builtin.h"
+#include "scene/closed_room.h"
 #include "scene/default_light.h"
 #include "scene/focus.h"
 #include "scene/framing.h"
 #include "scene/gltf/gltf.h"
+#include "scene/sky.h"
+#include "scene/thin_meshes.h"
 #include "scene/view_file.h"
 
 #include <nlohmann/json.hpp>
@@ -70,6 +74,32 @@ void chooseLight(const SceneOptions& options, const Scene& scene, const nlohmann
     }
 }
 
+Camera cameraOf(const SceneOptions& options, const Scene& scene) {
+    if (!options.camera.empty()) {
+        return findCamera(scene, options.camera);
+    }
+    const uvec2 size = parseSize(options.size);
+    return defaultView(scene, float(size.x) / float(size.y)).camera;
+}
+
+/// What the camera sees of a closed room would be black.
+void lightClosedRoom(const SceneOptions& options, Scene& scene) {
+    const float strength = scene.sun ? luminance(scene.sun->irradiance) : Sky::sunLuminance;
+    if (const auto lamp = lampForClosedRoom(scene, cameraOf(options, scene), strength)) {
+        scene.lamps.push_back(*lamp);
+        printNote(fmt::format("{}: no light reaches what the camera sees: added a lamp inside", options.scene));
+    }
+}
+
+/// Points and lines are a pixel wide for the camera that the options name; a view file's other cameras see them as wide
+/// as they are then.
+void widenThin(const SceneOptions& options, Scene& scene) {
+    if (std::ranges::all_of(scene.meshes, [](const Mesh& mesh) { return mesh.outward.empty(); })) {
+        return;
+    }
+    widenThinMeshes(scene, cameraOf(options, scene), parseSize(options.size).y);
+}
+
 }  // namespace
 
 void printWarning(const std::string& message) {
@@ -93,10 +123,14 @@ Scene loadScene(const SceneOptions& options) {
     if (options.sceneIndex && *options.sceneIndex < 0) {
         failUsage("--scene must be 0 or more, is {}", *options.sceneIndex);
     }
-    return loadGltf(options.scene, {.scene = options.sceneIndex.value_or(-1),
-                                    .variant = options.variant,
-                                    .warn = printWarning,
-                                    .strict = options.strict});
+    Scene scene = loadGltf(options.scene, {.scene = options.sceneIndex.value_or(-1),
+                                           .variant = options.variant,
+                                           .zUp = options.up == "Z",
+                                           .warn = printWarning,
+                                           .strict = options.strict});
+    widenThin(options, scene);
+    lightClosedRoom(options, scene);
+    return scene;
 }
 
 View loadView(const SceneOptions& options, const Scene& scene) {

@@ -13,7 +13,8 @@ namespace reflet {
 struct SceneOptions {
     std::string scene;
     std::optional<int> sceneIndex;
-    std::string variant;  ///< of the glTF file's materials; empty: its default
+    std::string variant;   ///< of the glTF file's materials; empty: its default
+    std::string up = "Y";  ///< the file's axis that points up: "Y" or "Z"
     std::string camera;
     std::string viewFile;
     std::string environment;  ///< "sky", "studio", "none" or a file; empty: the view file's, the scene's or a default

@@ -78,7 +78,9 @@ void Bsdf::setLayers(const SurfacePoint& point, const Boundary& boundary) {
     setSpecular(point, both, table);
     // KHR_materials_specular: the base gets what the layer's most reflective channel leaves.
     const float base = beneath * (1.0F - point.metallic) * (1.0F - std::min(largest(layer), 1.0F));
-    diffuse_ = point.baseColor * (base * (1.0F - point.transmission));
+    const float opaqueBase = base * (1.0F - point.transmission);
+    diffuse_ = point.baseColor * (opaqueBase * (1.0F - point.diffuseTransmissionShare));
+    through_ = point.diffuseTransmission * opaqueBase;
     if (!(transmission > 0.0F)) {
         return;
     }
@@ -108,9 +110,13 @@ void Bsdf::setCoat(const SurfacePoint& point) {
 // In proportion to the lobes' light, at least a tenth each, at the largest one's expense.
 void Bsdf::setChances() {
     const float beneath = 1.0F - coatAlbedo_;
-    const float through = total(transmitted_) + 3.0F * reflectedInside_;
-    const std::array<float, lobes> light{beneath * total(specularAlbedo_), beneath * total(diffuse_),
-                                         beneath * 3.0F * sheen_.albedo(), beneath * through, 3.0F * coatAlbedo_};
+    const float refracted = total(transmitted_) + 3.0F * reflectedInside_;
+    const std::array<float, lobes> light{beneath * total(specularAlbedo_),
+                                         beneath * total(diffuse_),
+                                         beneath * 3.0F * sheen_.albedo(),
+                                         beneath * refracted,
+                                         3.0F * coatAlbedo_,
+                                         beneath * total(through_)};
     const auto sumOf = [](const auto& values) { return std::accumulate(values.begin(), values.end(), 0.0F); };
     const float all = sumOf(light);
     if (!(all > 0.0F)) {
@@ -136,6 +142,8 @@ Reflection Bsdf::evaluate(const vec3& toLight, float leastAlpha) const {
         if (coatFactor_ > 0.0F) {
             r.specular += coatFactor_ * coat_.reflect(toLight, leastAlpha);
         }
+    } else if (cosine < 0.0F) {
+        r.diffuse = through_ * ((1.0F - coatAlbedo_) * -cosine / pi);
     }
     return r;
 }
@@ -161,14 +169,16 @@ float Bsdf::pdf(const vec3& direction) const {
         sum += chances_[diffuse] * (uniform_ ? 0.5F / pi : cosine / pi);
         sum += chances_[specular] > 0.0F ? chances_[specular] * specular_.pdf(direction) : 0.0F;
         sum += chances_[sheen] * SheenLobe::pdf;
+    } else {
+        sum += chances_[through] * -cosine / pi;
     }
     sum += chances_[coat] > 0.0F ? chances_[coat] * coat_.pdf(direction) : 0.0F;
     return sum + (chances_[glass] > 0.0F ? chances_[glass] * glass_.pdf(direction * frame_) : 0.0F);
 }
 
-vec3 Bsdf::sampleDiffuse(const vec2& u) const {
+vec3 Bsdf::sampleDiffuse(const vec2& u, bool uniform) const {
     vec3 l(0.0F);
-    l.z = uniform_ ? 1.0F - u.x : std::sqrt(1.0F - u.x);
+    l.z = uniform ? 1.0F - u.x : std::sqrt(1.0F - u.x);
     const float radius = std::sqrt(std::max(1.0F - l.z * l.z, 0.0F));
     l.x = radius * std::cos(2.0F * pi * u.y);
     l.y = radius * std::sin(2.0F * pi * u.y);
@@ -225,7 +235,10 @@ Scattered Bsdf::scatter(float lobe, const vec2& u) const {
         s.direction = chosen == specular ? specular_.sample(u)
                       : chosen == coat   ? coat_.sample(u)
                       : chosen == sheen  ? sheen_.sample(u)
-                                         : sampleDiffuse(u);
+                                         : sampleDiffuse(u, chosen == diffuse && uniform_);
+        if (chosen == through) {
+            s.direction -= 2.0F * glm::dot(s.direction, frame_[2]) * frame_[2];
+        }
         if ((chosen == specular && !specular_.above(s.direction)) || (chosen == coat && !coat_.above(s.direction))) {
             return {};  // masked; what another lobe scatters there is not its concern
         }

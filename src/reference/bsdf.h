@@ -1,6 +1,6 @@
 // The surface model: Lambert under GGX. The diffuse base receives what the specular layer does not reflect; a share of
-// it may be transmitted instead (glass.h). A sheen may lie over both, and a clear coat over everything. Specified in
-// docs/conventions.md; shares no code with src/shaders/ggx.glsl.
+// it may be transmitted instead, refracted (glass.h) or diffusely. A sheen may lie over both, and a clear coat over
+// everything. Specified in docs/conventions.md; shares no code with src/shaders/ggx.glsl.
 #pragma once
 
 #include "reference/glass.h"
@@ -49,7 +49,7 @@ public:
     [[nodiscard]] float pdf(const vec3& direction) const;
 
 private:
-    enum Lobe : uint8_t { specular, diffuse, sheen, glass, coat, lobes };
+    enum Lobe : uint8_t { specular, diffuse, sheen, glass, coat, through, lobes };
 
     void setSheen(const SurfacePoint& point);
     void setSpecular(const SurfacePoint& point, const Reflectance& both, const LobeAlbedo& table);
@@ -57,15 +57,16 @@ private:
     void setCoat(const SurfacePoint& point);
     void setChances();
     [[nodiscard]] Reflection evaluate(const vec3& toLight, float leastAlpha) const;
-    [[nodiscard]] vec3 sampleDiffuse(const vec2& u) const;
+    [[nodiscard]] vec3 sampleDiffuse(const vec2& u, bool uniform) const;
     [[nodiscard]] Scattered scatterMirror(const SpecularLobe& lobe, const vec3& share, float chance) const;
     [[nodiscard]] Scattered scatterGlass(float choice, const vec2& u) const;
     [[nodiscard]] bool above(const vec3& world) const { return glm::dot(world, geometricNormal_) > 0.0F; }
 
     mat3 frame_;  ///< tangent, bitangent, shading normal
     vec3 geometricNormal_;
-    vec3 view_;     ///< local, z > 0
-    vec3 diffuse_;  ///< albedo of the diffuse base, attenuated by the specular layer
+    vec3 view_;           ///< local, z > 0
+    vec3 diffuse_;        ///< albedo of the diffuse base, attenuated by the specular layer
+    vec3 through_{0.0F};  ///< the same of the light that arrives on the other side
     bool uniform_;
     SpecularLobe specular_;
     vec3 specularAlbedo_{0.0F};
@@ -76,7 +77,7 @@ private:
     SpecularLobe coat_;
     float coatAlbedo_ = 0.0F;
     float coatFactor_ = 0.0F;
-    std::array<float, lobes> chances_{0.0F, 1.0F, 0.0F, 0.0F, 0.0F};
+    std::array<float, lobes> chances_{0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 0.0F};
 };
 
 }  // namespace reflet

@@ -113,7 +113,9 @@ LightSample Lights::drawSun(const vec2& u) const {
 
 LightSample Lights::drawLamp(const SurfacePoint& point, float choice, const vec2& u) const {
     const auto strength = [&](const LightSample& s) {
-        return glm::dot(s.toLight, point.geometricNormal) > 0.0F ? luminance(s.light) : 0.0F;
+        return glm::dot(s.toLight, point.geometricNormal) > 0.0F || point.diffuseTransmissionShare > 0.0F
+                   ? luminance(s.light)
+                   : 0.0F;
     };
     float total = 0.0F;
     for (const Lamp& lamp : lamps_) {

@@ -192,7 +192,7 @@ void PathTracer::addLamps(Walk& walk, const Bsdf& bsdf) const {
         const LightSample sun = lights_.drawSun(walk.pair(forSun));
         const vec3 reflected = bsdf.reflectLamp(sun.toLight).sum() * sun.light;
         const bool faces = glm::dot(sun.toLight, walk.point.geometricNormal) > 0.0F;
-        const bool needed = faces && (first || reflected != vec3(0.0F));
+        const bool needed = (faces && first) || reflected != vec3(0.0F);
         const vec3 visible = needed ? lit(walk, sun) : vec3(0.0F);
         sum += reflected * visible;
         if (first) {

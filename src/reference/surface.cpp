@@ -2,6 +2,7 @@
 #include "reference/surface.h"
 
 #include "reference/texture.h"
+#include "reference/thin_film.h"
 
 #include <algorithm>
 #include <array>
@@ -84,6 +85,37 @@ void setGlass(SurfacePoint& s, const Scene& scene, const Material& material, con
     s.transmission = factorAt(scene, t.factor, t.texture, corners, 0);
     s.bounded = t.thickness > 0.0F;
     s.medium = mediumOf(s.hit.instance, material);
+}
+
+// KHR_materials_iridescence: the film's reflectance at the angle of view. Metals reflect their base colour.
+void setFilm(SurfacePoint& s, const Scene& scene, const Material& material, const Corners& corners) {
+    const Iridescence& film = material.iridescence;
+    if (!(film.factor > 0.0F)) {
+        return;
+    }
+    const float share = factorAt(scene, film.factor, film.texture, corners, 0);
+    float thickness = film.thickest;
+    if (film.thicknessTexture.image >= 0) {
+        const float part = readTexture(scene, film.thicknessTexture, corners.uv0(), corners.uv1(), false).y;
+        thickness = glm::mix(film.thinnest, film.thickest, part);
+    }
+    const ThinFilm layer{film.ior, thickness};
+    const float cosine = std::max(glm::dot(s.normal, s.toOrigin), 0.0F);
+    s.dielectric.f0 = glm::mix(s.dielectric.f0, layer.f0At(cosine, s.dielectric.f0), share);
+    s.baseColor = glm::mix(s.baseColor, layer.f0At(cosine, s.baseColor), share * s.metallic);
+}
+
+// KHR_materials_diffuse_transmission.
+void setDiffuseTransmission(SurfacePoint& s, const Scene& scene, const Material& material, const Corners& corners) {
+    const DiffuseTransmission& t = material.diffuseTransmission;
+    if (!(t.factor > 0.0F)) {
+        return;
+    }
+    s.diffuseTransmissionShare = factorAt(scene, t.factor, t.texture, corners, 3);
+    s.diffuseTransmission = t.color * s.diffuseTransmissionShare;
+    if (t.colorTexture.image >= 0) {
+        s.diffuseTransmission *= vec3(readTexture(scene, t.colorTexture, corners.uv0(), corners.uv1(), true));
+    }
 }
 
 // KHR_materials_sheen: on the outside of glass only.
@@ -243,6 +275,8 @@ SurfacePoint surfaceAt(const RayScene& rays, const Hit& hit, const vec3& directi
     }
     setGlass(s, scene, material, corners);
     setDielectric(s, scene, material, corners);
+    setFilm(s, scene, material, corners);
+    setDiffuseTransmission(s, scene, material, corners);
     setSheen(s, scene, material, corners);
     setAnisotropy(s, rays, material, corners, s.front ? s.normal : -s.normal);
     s.unlit = material.unlit;

@@ -43,7 +43,9 @@ struct SurfacePoint {
     CoatPoint coat;
     SheenPoint sheen;
     AnisotropyPoint anisotropy;
-    bool unlit = false;      ///< reflects nothing
+    vec3 diffuseTransmission{0.0F};         ///< albedo of the diffuse light that leaves on the other side
+    float diffuseTransmissionShare = 0.0F;  ///< of the diffuse light; 0: none
+    bool unlit = false;                     ///< reflects nothing
     vec3 emission{0.0F};     ///< radiance toward the ray's origin; 0 from the back of single-sided surfaces
     float clearance = 0.0F;  ///< offset of new rays from the surface, to avoid self-intersection [m]
     bool front = true;       ///< the ray hit the front face

@@ -22,11 +22,12 @@ struct Draw {
     Aabb boundsW;
     std::span<const Aabb> pieces;  ///< bounds of its parts, in object space; empty: only boundsW is known
     VkDescriptorSet material = VK_NULL_HANDLE;
-    bool masked = false;   ///< has an alpha cutoff
-    bool blended = false;  ///< alpha is coverage; masked, too
-    bool glass = false;    ///< transmissive
-    bool coated = false;   ///< has a clear coat
-    float alpha = 1.0F;    ///< of blended draws: the largest that occurs, or more
+    bool masked = false;               ///< has an alpha cutoff
+    bool blended = false;              ///< alpha is coverage; masked, too
+    bool glass = false;                ///< transmissive
+    bool coated = false;               ///< has a clear coat
+    bool diffuseTransmission = false;  ///< transmits diffuse light
+    float alpha = 1.0F;                ///< of blended draws: the largest that occurs, or more
     bool doubleSided = false;
     bool emitter = false;     ///< lamps stand for what it emits
     bool turnedOver = false;  ///< its triangles have clockwise winding in object space
@@ -48,6 +49,7 @@ struct DrawList {
     bool dispersive = false;               ///< some of these disperse light
     bool murky = false;                    ///< some of these are opaque in part
     bool coated = false;                   ///< some draws have clear coats
+    bool diffuseTransmission = false;      ///< some draws transmit diffuse light
     bool coatedGlass = false;              ///< some of these are transmissive
     bool coatedBlended = false;            ///< some of these are blended
     std::vector<gpu::Image> livePictures;  ///< camera images shown by materials, written by passes

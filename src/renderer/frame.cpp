@@ -11,6 +11,7 @@
 #include "renderer/glass/glass_layers.h"
 #include "renderer/history.h"
 #include "renderer/live/live_cameras.h"
+#include "renderer/other_side/other_side.h"
 #include "renderer/trace_lobe.h"
 #include "renderer/view_light.h"
 
@@ -132,6 +133,7 @@ FrameImages renderFrame(gpu::PassList& f, FrameStore& own, const FrameInputs& in
     // The light of the surfaces, and of what is in front of them.
     lighting::Light light = lighting::compose(
         f, context, settings, seen.images, {images.direct, diffuse, specular, images.fromEmitters}, layers, lit.next);
+    light = withOtherSide(f, in, settings, seen, light);
     light = withCoats(f, in, settings, seen, light);
     light = withBlended(f, blended.behindGlass, light);
     light = throughGlass(f, in, settings, seen, light);

@@ -276,6 +276,8 @@ void GpuScene::addDraws(const Scene& scene) {
         const bool murky = material.transmission.factor < 1.0F || material.transmission.texture.image >= 0;
         draws_.murky = draws_.murky || (draw.glass && murky);
         draw.coated = material.clearcoat.factor > 0.0F;
+        draw.diffuseTransmission = material.diffuseTransmission.factor > 0.0F;
+        draws_.diffuseTransmission = draws_.diffuseTransmission || draw.diffuseTransmission;
         draws_.coated = draws_.coated || draw.coated;
         draws_.coatedBlended = draws_.coatedBlended || (draw.coated && draw.blended);
         draws_.coatedGlass = draws_.coatedGlass || (draw.coated && draw.glass);

@@ -7,26 +7,13 @@
 namespace reflet {
 
 std::array<const TextureSlot*, slotCount> textureSlots(const Material& m) {
-    return {&m.baseColorTexture,
-            &m.metallicRoughnessTexture,
-            &m.normalTexture,
-            &m.occlusionTexture,
-            &m.emissiveTexture,
-            &m.specularTexture,
-            &m.specularColorTexture,
-            &m.transmission.texture,
-            &m.transmission.thicknessTexture,
-            &m.clearcoat.texture,
-            &m.clearcoat.roughnessTexture,
-            &m.clearcoat.normalTexture,
-            &m.sheen.colorTexture,
-            &m.sheen.roughnessTexture,
-            &m.anisotropy.texture};
+    return materialTextures(m);  // in the order of the slots
 }
 
 bool isSrgb(uint slot) {
     // The specular slots often share one image: sRGB decoding leaves alpha as it is.
-    return slot == slotBaseColor || slot == slotSheenColor || (slot >= slotEmissive && slot <= slotSpecularColor);
+    return slot == slotBaseColor || slot == slotSheenColor || slot == slotDiffuseTransmissionColor ||
+           (slot >= slotEmissive && slot <= slotSpecularColor);
 }
 
 namespace {
@@ -73,6 +60,8 @@ MaterialParams materialParams(const Material& m) {
     p.sheenRoughness = m.sheen.roughness;
     p.anisotropyAlong = {std::cos(m.anisotropy.rotation), std::sin(m.anisotropy.rotation)};
     p.anisotropy = m.anisotropy.strength;
+    p.film = {m.iridescence.factor, m.iridescence.ior, m.iridescence.thinnest, m.iridescence.thickest};
+    p.diffuseTransmission = vec4(m.diffuseTransmission.color, m.diffuseTransmission.factor);
     const auto slots = textureSlots(m);
     for (size_t i = 0; i < slotCount; ++i) {
         p.textured |= slots[i]->image >= 0 ? 1U << i : 0U;
@@ -86,7 +75,7 @@ MaterialParams materialParams(const Material& m) {
 uint materialFeatures(const Material& m) {
     const MaterialParams p = materialParams(m);
     const bool textured = (p.textured & (1U << slotSpecular | 1U << slotSpecularColor)) != 0;
-    const bool reflectance = textured || p.f0 != vec3(1.0F) || p.f90 != 1.0F;
+    const bool reflectance = textured || p.f0 != vec3(1.0F) || p.f90 != 1.0F || m.iridescence.factor > 0.0F;
     return (reflectance ? materialFeatureReflectance : 0U) | (m.unlit ? materialFeatureUnlit : 0U) |
            (m.sheen.color != vec3(0.0F) ? materialFeatureSheen : 0U) |
            (m.anisotropy.strength > 0.0F ? materialFeatureAnisotropy : 0U);

@@ -24,6 +24,10 @@ layout(set = 1, binding = 12) uniform sampler2D coatNormalTexture;
 layout(set = 1, binding = 13) uniform sampler2D sheenColorTexture;
 layout(set = 1, binding = 14) uniform sampler2D sheenRoughnessTexture;
 layout(set = 1, binding = 15) uniform sampler2D anisotropyTexture;
+layout(set = 1, binding = 16) uniform sampler2D iridescenceTexture;
+layout(set = 1, binding = 17) uniform sampler2D iridescenceThicknessTexture;
+layout(set = 1, binding = 18) uniform sampler2D diffuseTransmissionTexture;
+layout(set = 1, binding = 19) uniform sampler2D diffuseTransmissionColorTexture;
 
 bool hasTexture(uint slot) {
     return (usedSlots & (1u << slot)) != 0u && (notInlined(material.textured, gl_FragCoord) & (1u << slot)) != 0u;
@@ -96,6 +100,31 @@ vec4 materialSheen(vec2 uv0, vec2 uv1) {
         sheen.a *= texture(sheenRoughnessTexture, slotUv(slotSheenRoughness, uv0, uv1)).a;
     }
     return sheen;
+}
+
+// The thin film: share of the surface that it covers, thickness [nm].
+vec2 materialFilm(vec2 uv0, vec2 uv1) {
+    vec2 film = vec2(material.film.x, material.film.w);
+    if (hasTexture(slotIridescence)) {
+        film.x *= texture(iridescenceTexture, slotUv(slotIridescence, uv0, uv1)).r;
+    }
+    if (hasTexture(slotIridescenceThickness)) {
+        film.y = mix(material.film.z, material.film.w,
+                     texture(iridescenceThicknessTexture, slotUv(slotIridescenceThickness, uv0, uv1)).g);
+    }
+    return film;
+}
+
+// Colour of the diffuse light that leaves on the other side, and its share.
+vec4 materialDiffuseTransmission(vec2 uv0, vec2 uv1) {
+    vec4 passes = material.diffuseTransmission;
+    if (hasTexture(slotDiffuseTransmission)) {
+        passes.a *= texture(diffuseTransmissionTexture, slotUv(slotDiffuseTransmission, uv0, uv1)).a;
+    }
+    if (hasTexture(slotDiffuseTransmissionColor)) {
+        passes.rgb *= texture(diffuseTransmissionColorTexture, slotUv(slotDiffuseTransmissionColor, uv0, uv1)).rgb;
+    }
+    return passes;
 }
 
 // Direction of the anisotropy along tangent and bitangent, any length, and its strength.

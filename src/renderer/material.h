@@ -24,7 +24,11 @@ const uint slotCoatNormal = 11;
 const uint slotSheenColor = 12;
 const uint slotSheenRoughness = 13;
 const uint slotAnisotropy = 14;
-const uint slotCount = 15;
+const uint slotIridescence = 15;
+const uint slotIridescenceThickness = 16;
+const uint slotDiffuseTransmission = 17;
+const uint slotDiffuseTransmissionColor = 18;
+const uint slotCount = 19;
 const uint sceneSlotCount = 8;  // the first ones, which ray hits read
 
 // Alpha from which blended surfaces are opaque, 254.5 / 255, and below which they are not there.
@@ -52,7 +56,7 @@ struct MaterialParams {
     uint unlit;          // 1: emits its base colour and reflects nothing
     vec3 f0;             // of the dielectric, over dielectricF0, without the factor that follows
     float f90;           // of the dielectric, 0..1; a factor of F0, too
-    vec3 uvRows[30];     // two per slot, KHR_texture_transform
+    vec3 uvRows[38];     // two per slot, KHR_texture_transform
     float transmission;  // share of the light in the dielectric's base that passes the surface, 0: opaque
     float ior;
     vec3 extinction;      // of the volume beneath [1/m]
@@ -62,11 +66,13 @@ struct MaterialParams {
     float coatRoughness;  // perceptual
     float coatNormalScale;
     vec3 sheenColor;
-    float sheenRoughness;  // perceptual
-    vec2 anisotropyAlong;  // direction of the anisotropy along tangent and bitangent, unit
-    float anisotropy;      // its strength, 0..1
-    float preExposed;      // 1: `emissive` is a live picture, whose radiance is pre-exposed; else 0
-    uint emitter;          // 1: findEmitters has what it emits
+    float sheenRoughness;      // perceptual
+    vec2 anisotropyAlong;      // direction of the anisotropy along tangent and bitangent, unit
+    float anisotropy;          // its strength, 0..1
+    float preExposed;          // 1: `emissive` is a live picture, whose radiance is pre-exposed; else 0
+    uint emitter;              // 1: findEmitters has what it emits
+    vec4 film;                 // thin film: share that it covers, index of refraction, least and largest thickness [nm]
+    vec4 diffuseTransmission;  // its colour, and the share of the diffuse light that leaves on the other side
 };
 
 SHARED_END

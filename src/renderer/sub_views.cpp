@@ -29,6 +29,14 @@ Settings coatSettings(const Settings& settings) {
     return layer;
 }
 
+Settings otherSideSettings(const Settings& settings) {
+    Settings layer = layerSettings(settings);
+    layer.materials.lambertOnly = 1;
+    layer.specular.rays = 0;
+    layer.traceScreen.enabled = 0;
+    return layer;
+}
+
 Settings planarSettings(Settings settings) {
     settings.shadow.cascades = std::max(settings.shadow.cascades, 1U);
     const bool lit = settings.traceScreen.light != HitLight::direct;

@@ -14,6 +14,9 @@ Settings glassSettings(const Settings& settings, const DrawList& draws);
 /// Clear coats, which have no diffuse base.
 Settings coatSettings(const Settings& settings);
 
+/// The other side of surfaces that transmit diffuse light, which the screen does not show.
+Settings otherSideSettings(const Settings& settings);
+
 /// What a planar reflection shows, for rays of the frame. It has no last frame: `previous` acts as `lit` there, and
 /// probes bring further bounces.
 Settings planarSettings(Settings settings);

@@ -47,10 +47,16 @@ struct Skin {
     std::vector<mat4> inverseBind;  ///< one per joint
 };
 
-/// Joints and weights of a vertex. Weights sum to 1; where the weight is 0, the joint is 0.
+/// A joint that moves a vertex.
+struct JointWeight {
+    uint32_t joint = 0;   ///< of the skin
+    float weight = 1.0F;  ///< > 0
+};
+
+/// The joints of a vertex: a range of Mesh::jointWeights, whose weights sum to 1. Vertices may share it.
 struct VertexSkin {
-    glm::u16vec4 joints{0};  ///< of the skin
-    vec4 weights{1, 0, 0, 0};
+    uint32_t first = 0;
+    uint32_t count = 0;
 };
 
 /// What one morph target adds to a vertex at weight 1, in object space.

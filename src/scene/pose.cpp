@@ -64,9 +64,10 @@ void keepAutomatic(Camera& camera) {
 Mesh skinned(const Mesh& source, const std::vector<mat4>& joints) {
     Mesh mesh = source;
     mesh.skin.clear();
+    mesh.jointWeights.clear();
     mesh.bounds = Aabb{};
     for (size_t i = 0; i < mesh.positions.size(); ++i) {
-        const mat4 m = skinToWorld(source.skin[i], joints);
+        const mat4 m = skinToWorld(source.jointsOf(i), joints);
         const mat3 turn(m);
         const mat3 cofactors(glm::cross(turn[1], turn[2]), glm::cross(turn[2], turn[0]), glm::cross(turn[0], turn[1]));
         const float side = glm::dot(turn[0], cofactors[0]) < 0.0F ? -1.0F : 1.0F;
@@ -163,12 +164,10 @@ bool isAnimated(const ScenePose& pose, const Instance& instance) {
     return isDeformed(instance) || isMoving(instance.node, pose);
 }
 
-mat4 skinToWorld(const VertexSkin& vertex, const std::vector<mat4>& joints) {
+mat4 skinToWorld(std::span<const JointWeight> vertex, const std::vector<mat4>& joints) {
     mat4 sum(0.0F);
-    for (int i = 0; i < 4; ++i) {
-        if (vertex.weights[i] != 0.0F) {
-            sum += vertex.weights[i] * joints[vertex.joints[i]];
-        }
+    for (const JointWeight& moved : vertex) {
+        sum += moved.weight * joints[moved.joint];
     }
     return sum;
 }
@@ -183,8 +182,9 @@ std::vector<vec3> worldPositions(const Scene& scene, const ScenePose& pose, size
     std::vector<vec3> positions;
     positions.reserve(mesh.positions.size());
     for (size_t i = 0; i < mesh.positions.size(); ++i) {
-        const mat4 toWorld = placed.skin >= 0 ? skinToWorld(mesh.skin[i], pose.skins[static_cast<size_t>(placed.skin)])
-                                              : pose.objectToWorld[instance];
+        const mat4 toWorld = placed.skin >= 0
+                                 ? skinToWorld(mesh.jointsOf(i), pose.skins[static_cast<size_t>(placed.skin)])
+                                 : pose.objectToWorld[instance];
         positions.emplace_back(toWorld * vec4(morphedPosition(mesh, i, pose.weights[instance]), 1.0F));
     }
     return positions;
@@ -193,10 +193,8 @@ std::vector<vec3> worldPositions(const Scene& scene, const ScenePose& pose, size
 std::vector<Aabb> jointBounds(const Mesh& mesh, size_t joints) {
     std::vector<Aabb> bounds(joints);
     for (size_t i = 0; joints > 0 && i < mesh.skin.size(); ++i) {
-        for (int k = 0; k < 4; ++k) {
-            if (mesh.skin[i].weights[k] != 0.0F) {
-                bounds[mesh.skin[i].joints[k]].add(mesh.positions[i]);
-            }
+        for (const JointWeight& moved : mesh.jointsOf(i)) {
+            bounds[moved.joint].add(mesh.positions[i]);
         }
     }
     return bounds;

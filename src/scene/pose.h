@@ -39,8 +39,9 @@ bool isDeformed(const Instance& instance);
 /// Whether the instance is animated or deformed.
 bool isAnimated(const ScenePose& pose, const Instance& instance);
 
-/// Skinning matrix of a vertex, from the mesh to the world. Normals are transformed by its cofactor matrix.
-mat4 skinToWorld(const VertexSkin& vertex, const std::vector<mat4>& joints);
+/// Skinning matrix of a vertex that these joints move, from the mesh to the world. Normals are transformed by its
+/// cofactor matrix.
+mat4 skinToWorld(std::span<const JointWeight> vertex, const std::vector<mat4>& joints);
 
 /// Whether the skin mirrors the mesh, which flips its winding (decided by the first joint).
 bool flipsWinding(const std::vector<mat4>& joints);

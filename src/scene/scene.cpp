@@ -57,6 +57,16 @@ bool isLit(const Scene& scene) {
 
 }  // namespace
 
+void Mesh::addSkin(std::span<const JointWeight> joints) {
+    const auto first = static_cast<uint32_t>(jointWeights.size());
+    for (const JointWeight& moved : joints) {
+        if (moved.weight > 0.0F) {
+            jointWeights.push_back(moved);
+        }
+    }
+    skin.push_back({first, static_cast<uint32_t>(jointWeights.size()) - first});
+}
+
 Aabb Scene::bounds() const {
     const ScenePose pose = scenePose(*this, 0.0);
     Aabb result;

@@ -14,6 +14,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -90,6 +91,24 @@ struct Anisotropy {
     TextureSlot texture;    ///< red, green: direction, as -1..1 along tangent and bitangent; blue: strength
 };
 
+/// KHR_materials_iridescence: a thin film over the surface, whose interference colours the reflection.
+struct Iridescence {
+    float factor = 0.0F;           ///< share of the surface that it covers, 0..1; 0: none
+    float ior = 1.3F;              ///< of the film, >= 1
+    float thinnest = 100.0F;       ///< thickness where the texture is 0 [nm]
+    float thickest = 400.0F;       ///< where it is 1, or without one [nm]
+    TextureSlot texture;           ///< red
+    TextureSlot thicknessTexture;  ///< green
+};
+
+/// KHR_materials_diffuse_transmission: the share of the base's diffuse light that leaves on the other side.
+struct DiffuseTransmission {
+    float factor = 0.0F;       ///< 0..1; 0: none
+    vec3 color{1.0F};          ///< of that light, factor, 0..1
+    TextureSlot texture;       ///< alpha
+    TextureSlot colorTexture;  ///< sRGB
+};
+
 /// glTF metallic-roughness. Colours are linear.
 struct Material {
     std::string name;
@@ -120,7 +139,33 @@ struct Material {
     Clearcoat clearcoat;
     Sheen sheen;
     Anisotropy anisotropy;
+    Iridescence iridescence;
+    DiffuseTransmission diffuseTransmission;
 };
+
+/// All textures of a Material or a const Material.
+template <class M>
+auto materialTextures(M& m) {
+    return std::array{&m.baseColorTexture,
+                      &m.metallicRoughnessTexture,
+                      &m.normalTexture,
+                      &m.occlusionTexture,
+                      &m.emissiveTexture,
+                      &m.specularTexture,
+                      &m.specularColorTexture,
+                      &m.transmission.texture,
+                      &m.transmission.thicknessTexture,
+                      &m.clearcoat.texture,
+                      &m.clearcoat.roughnessTexture,
+                      &m.clearcoat.normalTexture,
+                      &m.sheen.colorTexture,
+                      &m.sheen.roughnessTexture,
+                      &m.anisotropy.texture,
+                      &m.iridescence.texture,
+                      &m.iridescence.thicknessTexture,
+                      &m.diffuseTransmission.texture,
+                      &m.diffuseTransmission.colorTexture};
+}
 
 /// Vertex attributes besides the position. Unit normal; unit tangent, w = ±1 (bitangent = w · cross(n, t)).
 struct VertexAttributes {
@@ -137,10 +182,22 @@ struct Mesh {
     std::vector<vec3> positions;
     std::vector<VertexAttributes> attributes;  ///< one per position
     std::vector<VertexSkin> skin;              ///< one per position, or empty
+    std::vector<JointWeight> jointWeights;     ///< that `skin` refers to
     Morph morph;
     std::vector<uint32_t> indices;
     uint32_t material = 0;  ///< index into Scene::materials
     Aabb bounds;
+    /// Of points and lines (thin_meshes.h): per position the unit vector from the point or line that it is beside; else
+    /// empty. Positions are `width` along it, until they have been made a pixel wide.
+    std::vector<vec3> outward;
+    float width = 0.0F;
+
+    /// The joints that move a vertex. Needs a skin.
+    [[nodiscard]] std::span<const JointWeight> jointsOf(size_t vertex) const {
+        return std::span(jointWeights).subspan(skin[vertex].first, skin[vertex].count);
+    }
+    /// Gives the next vertex its joints, whose weights sum to 1.
+    void addSkin(std::span<const JointWeight> joints);
 };
 
 /// A mesh placed in the world. Instances may share a mesh.
@@ -223,7 +280,8 @@ struct Scene {
     std::vector<Node> nodes;            ///< parents first; empty if there are neither animations nor skins
     std::vector<Animation> animations;  ///< all play at once
     std::vector<Skin> skins;
-    std::vector<std::string> variants;  ///< names of the file's material variants, whether chosen or not
+    std::vector<std::string> extensions;  ///< that the file says it uses
+    std::vector<std::string> variants;    ///< names of the file's material variants, whether chosen or not
 
     /// World-space bounds of all instances at time 0; empty if there are none.
     [[nodiscard]] Aabb bounds() const;

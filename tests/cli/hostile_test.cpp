@@ -187,7 +187,9 @@ TEST_F(Hostile, AClosedOrFullStandardErrorStopsNothing) {
 
 TEST_F(Hostile, AWarningToAClosedStandardErrorStopsNothing) {
     write("a.gltf", R"({"asset": {"version": "2.0"}, "extensionsUsed": ["NO_such"], "scenes": [{"nodes": [0]}],
-                        "nodes": [{"name": "empty"}]})");
+                        "nodes": [{"mesh": 0}],
+                        "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3"}],
+                        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]})");
     EXPECT_EQ(shell("", "render a.gltf --preset plain --size 32x18 -o a.png 2>/dev/full").status, 0);
     EXPECT_TRUE(fs::exists(path("a.png")));
 }
@@ -249,7 +251,9 @@ TEST_F(Hostile, AFolderNamedLikeAFrameIsInTheWay) {
 
 TEST_F(Hostile, ATextureThatChangesMakesASequenceAnotherOne) {
     writePng(path("t.png"), {2, 2, 3, std::vector<uint8_t>(12, 10)});
-    write("a.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"name": "empty"}],
+    write("a.gltf", R"({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+                        "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3"}],
+                        "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
                         "images": [{"uri": "t.png"}, {"uri": "../../../../../../../etc/passwd"}, {"uri": "pipe"}]})");
     ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
     const Arguments sequence{"--frames", "2", "-o", "a_#.png"};

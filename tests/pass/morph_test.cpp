@@ -94,7 +94,7 @@ TEST(Morph, ASkinMovesWhatIsMorphed) {
     const size_t left = mesh.positions.size();
     builtin::append(mesh, builtin::patch({{5, 0, 0}, {4.9F, 0, 0}, {0, 9, 0}, {1, 1}, {}}), mat4(1.0F));
     for (size_t i = 0; i < mesh.positions.size(); ++i) {
-        mesh.skin.push_back({{i < left ? 0 : 1, 0, 0, 0}, {1, 0, 0, 0}});
+        mesh.addSkin(std::array{JointWeight{i < left ? 0U : 1U, 1.0F}});
     }
     setDeltas(mesh, 1,
               [](uint32_t, const vec3& p) { return MorphDelta{.position = p.x > 0 ? vec3(0, 0.5F, 0) : vec3(0)}; });

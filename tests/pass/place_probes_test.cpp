@@ -10,8 +10,9 @@ namespace reflet::test::place_probes_test {
 namespace {
 
 const vec3 outside(0.0F, 0.0F, 100.0F);
+const vec3 inside(1.5F, 1.0F, 1.5F);  // of the rooms, not of things in them
 
-std::vector<Probe> placed(const Scene& scene, uint32_t count, const vec3& eye = outside) {
+std::vector<Probe> placed(const Scene& scene, uint32_t count, const vec3& eye = inside) {
     return placeProbes(scene, count, eye);
 }
 
@@ -65,13 +66,24 @@ TEST(PlaceProbes, OneThatWouldStandInABlockStandsBesideIt) {
 
 // Both sides of the block are drawn, and nothing but the camera's place tells whether it is a thing or a room.
 TEST(PlaceProbes, AClosedMeshThatIsDrawnFromBothSidesIsARoomIfTheCameraIsInIt) {
-    Scene scene;
+    Scene scene = closedRoom({2.0F, 1.5F, 3.0F});
     Material both = lambertMaterial(vec3(0.5F));
     both.doubleSided = true;
     builtin::place(scene, "block", builtin::addMaterial(scene, both), builtin::box({0.8F, 0.9F, 0.7F}));
     const vec3 beside = placed(scene, 1).at(0).position;
     EXPECT_GT(std::max({std::abs(beside.x) - 0.8F, std::abs(beside.y) - 0.9F, std::abs(beside.z) - 0.7F}), 0.1F);
     expectNear(placed(scene, 1, vec3(0.3F, -0.2F, 0.1F)).at(0).position, vec3(0.0F), 1e-3F);
+}
+
+TEST(PlaceProbes, ASingleObjectHasNoneNorARoomThatTheCameraSeesFromOutside) {
+    for (const bool doubleSided : {false, true}) {
+        Scene scene;
+        Material material = lambertMaterial(vec3(0.5F));
+        material.doubleSided = doubleSided;
+        builtin::place(scene, "block", builtin::addMaterial(scene, material), builtin::box({0.8F, 0.9F, 0.7F}));
+        EXPECT_TRUE(placed(scene, 4, outside).empty()) << doubleSided;
+    }
+    EXPECT_TRUE(placed(closedRoom({2.0F, 1.5F, 3.0F}), 4, outside).empty());
 }
 
 // A sheet seen from behind encloses nothing.

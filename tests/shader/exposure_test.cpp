@@ -108,12 +108,26 @@ TEST_F(Exposure, MakesACardMiddleGreyHoweverBright) {
     }
 }
 
-TEST_F(Exposure, IsThatOfTheObjectBeforeEveryBackground) {
-    for (const float background : {0.0F, 0.01F, 0.18F, 60000.0F}) {
+TEST_F(Exposure, IsThatOfTheObjectUnlessItWouldBurnTheBackground) {
+    for (const float background : {0.0F, 0.01F, 0.18F, 1.3F, 60.0F}) {
         Seen seen({64, 32}, vec3(background), false);
         seen.with({20, 10}, {32, 20}, vec3(0.5F));  // 6 % of the picture
-        expectBoth(seen, std::log2(grey / 0.5F), "an object");
+        expectBoth(seen, std::log2(std::min(grey / 0.5F, 0.6F / std::max(background, 1e-6F))), "an object");
     }
+}
+
+TEST_F(Exposure, OfARoomLetsTheWindowBurn) {
+    Seen seen({64, 32}, vec3(0.05F), true);
+    seen.with({0, 0}, {12, 20}, vec3(1.0F), false);  // 12 % of the picture
+    expectBoth(seen, std::log2(grey / 0.05F), "a room");
+}
+
+TEST_F(Exposure, LeavesHighlightsTheirDrawing) {
+    Seen seen({64, 32}, vec3(0.22F), true);
+    seen.with({0, 0}, {64, 1}, vec3(4.0F));  // 3 % of the picture
+    expectBoth(seen, std::log2(3.0F / 4.0F), "highlights");
+    seen.with({0, 0}, {64, 1}, vec3(3000.0F));
+    expectBoth(seen, -1.0F, "a lamp");
 }
 
 TEST_F(Exposure, IsThatOfTheBackgroundWhereThereIsNothingElse) {
@@ -122,13 +136,13 @@ TEST_F(Exposure, IsThatOfTheBackgroundWhereThereIsNothingElse) {
     Seen dot = sky;
     dot.with({5, 5}, {6, 6}, vec3(0.02F));  // 1 of 2048 pixels has a twentieth of the weight
     const float weight = 100.0F / 2048.0F;
-    expectBoth(dot, std::log2(grey) - (1.0F - weight) * 1.0F - weight * std::log2(0.02F), "a dot before the sky");
+    expectBoth(dot, (1.0F - weight) * std::log2(grey / 2.0F) + weight * std::log2(0.6F / 2.0F), "a dot before the sky");
 }
 
 TEST_F(Exposure, LeavesOutBlackAndBurntPixels) {
     Seen seen({64, 32}, vec3(0.25F), true);
     seen.with({0, 0}, {64, 16}, vec3(0.0F));       // half of the object is black
-    seen.with({0, 30}, {25, 32}, vec3(50000.0F));  // 5 % of the rest emits light
+    seen.with({0, 30}, {2, 32}, vec3(50000.0F));   // 0.4 % of the rest emits light
     seen.with({30, 30}, {55, 32}, vec3(0.0001F));  // and as much is nearly black
     expectBoth(seen, std::log2(grey / 0.25F), "a lamp and shadows");
 }

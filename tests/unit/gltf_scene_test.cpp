@@ -10,6 +10,11 @@ namespace {
 using nlohmann::json;
 
 /// A triangle below these nodes; the first is the root.
+/// Without one there is nothing to draw, which is an error.
+void addMesh(GltfBuilder& b) {
+    b.addPrimitive({{"attributes", {{"POSITION", b.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3")}}}});
+}
+
 GltfBuilder withNodes(const json& nodes) {
     GltfBuilder b = triangle();
     b.document["nodes"] = nodes;
@@ -111,6 +116,7 @@ TEST(GltfScene, TheFirstDirectionalLightIsTheSunAndTheOthersAreLamps) {
         {{"type", "directional"}, {"color", {1, 0.5, 0.25}}, {"intensity", 4}},
         {{"type", "point"}, {"name", "bulb"}, {"intensity", 10}, {"range", 5}},
         {{"type", "spot"}, {"spot", {{"innerConeAngle", 0.25}, {"outerConeAngle", 0.5}}}}};
+    addMesh(b);
     const Scene scene = load(std::move(b)).scene;
     ASSERT_TRUE(scene.sun);
     EXPECT_NEAR(glm::distance(scene.sun->direction, vec3(0, -1, 0)), 0, 1e-6);
@@ -187,6 +193,7 @@ TEST(GltfScene, CamerasStandAtTheirNodesAndLookAlongMinusZ) {
     GltfBuilder b = withNodes(json::array({{{"children", {1}}, {"translation", {0, 0, 10}}},
                                            {{"camera", 0}, {"rotation", {0, s, 0, s}}, {"translation", {0, 1, 0}}}}));
     b.add("cameras", {{"type", "perspective"}, {"name", "eye"}, {"perspective", {{"yfov", 0.75}, {"znear", 0.5}}}});
+    addMesh(b);
     const Camera camera = load(std::move(b)).scene.cameras.at(0);
     EXPECT_EQ(camera.name, "eye");
     EXPECT_EQ(camera.position, vec3(0, 1, 10));
@@ -201,6 +208,7 @@ TEST(GltfScene, AnOrthographicCameraIsTwiceItsYmagHigh) {
     GltfBuilder b = withNodes(json::array({{{"camera", 0}}}));
     b.add("cameras",
           {{"type", "orthographic"}, {"orthographic", {{"xmag", 4}, {"ymag", 3}, {"znear", 0}, {"zfar", 50}}}});
+    addMesh(b);
     const Camera camera = load(std::move(b)).scene.cameras.at(0);
     EXPECT_EQ(camera.orthographicHeight, 6.0F);
     EXPECT_EQ(camera.far, 50.0F);
@@ -211,6 +219,7 @@ TEST(GltfScene, AnOrthographicCameraIsTwiceItsYmagHigh) {
 TEST(GltfScene, AFarAwayCameraStillHasATargetApartFromItself) {
     GltfBuilder b = withNodes(json::array({{{"camera", 0}, {"translation", {1e20, 1e9, 0}}, {"scale", {0, 0, 0}}}}));
     b.add("cameras", {{"type", "perspective"}, {"perspective", {{"yfov", 0.75}, {"znear", 0.5}}}});
+    addMesh(b);
     const Camera camera = load(std::move(b)).scene.cameras.at(0);
     EXPECT_NE(camera.target, camera.position);
     EXPECT_EQ(glm::length(camera.up), 1.0F);
@@ -218,14 +227,15 @@ TEST(GltfScene, AFarAwayCameraStillHasATargetApartFromItself) {
 
 TEST(GltfScene, EachKindOfUnsupportedFeatureIsWarnedOfOnce) {
     GltfBuilder b = triangle();
-    b.document["extensionsUsed"] = {"ACME_holograms", "KHR_lights_punctual", "KHR_materials_iridescence"};
+    b.document["extensionsUsed"] = {"ACME_holograms", "KHR_lights_punctual", "EXT_lights_image_based"};
     b.document["skins"] = json::array({{{"joints", {0}}}});
     b.document["nodes"][0]["skin"] = 0;
     b.addRoot({{"mesh", 0}, {"skin", 0}});
     const std::vector<std::string> warnings = load(std::move(b)).warnings;
-    const std::vector<std::string> expected{"the extension will be ignored: ACME_holograms is not supported",
-                                            "iridescence will be missing: KHR_materials_iridescence is not supported",
-                                            "the mesh will not be deformed: it has no JOINTS_0 and WEIGHTS_0"};
+    const std::vector<std::string> expected{
+        "the extension will be ignored: ACME_holograms is not supported",
+        "image-based light will be missing: EXT_lights_image_based is not supported",
+        "the mesh will not be deformed: it has no JOINTS_0 and WEIGHTS_0"};
     ASSERT_EQ(warnings.size(), expected.size());
     for (size_t i = 0; i < expected.size(); ++i) {
         EXPECT_NE(warnings[i].find(expected[i]), std::string::npos) << warnings[i];

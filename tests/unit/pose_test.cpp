@@ -198,7 +198,8 @@ Scene bar() {
     mesh.positions = {vec3(0, 0, 0), vec3(1, 0, 1), vec3(2, 0, 0)};
     mesh.attributes.resize(3);
     mesh.indices = {0, 1, 2};
-    mesh.skin = {{{0, 0, 0, 0}, {1, 0, 0, 0}}, {{0, 1, 0, 0}, {0.5F, 0.5F, 0, 0}}, {{1, 0, 0, 0}, {1, 0, 0, 0}}};
+    mesh.jointWeights = {{0, 0.5F}, {1, 0.5F}, {0, 1.0F}, {1, 1.0F}};
+    mesh.skin = {{2, 1}, {0, 2}, {3, 1}};
     for (const vec3& p : mesh.positions) {
         mesh.bounds.add(p);
     }

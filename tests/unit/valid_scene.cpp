@@ -63,8 +63,8 @@ void expectValidInstances(const Scene& scene) {
         const Mesh& mesh = scene.meshes[instance.mesh];
         ASSERT_TRUE(instance.skin < 0 || mesh.skin.size() == mesh.positions.size());
         for (size_t v = 0; instance.skin >= 0 && v < mesh.skin.size(); ++v) {
-            for (int k = 0; k < 4; ++k) {
-                ASSERT_LT(mesh.skin[v].joints[k], scene.skins[static_cast<size_t>(instance.skin)].joints.size());
+            for (const JointWeight& moved : mesh.jointsOf(v)) {
+                ASSERT_LT(moved.joint, scene.skins[static_cast<size_t>(instance.skin)].joints.size());
             }
         }
     }

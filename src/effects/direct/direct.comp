@@ -12,6 +12,7 @@
 
 layout(constant_id = 0) const uint lambertOnly = 0u;
 layout(constant_id = 1) const uint anyLamps = 1u;
+layout(constant_id = 3) const uint coloredSun = 0u;  // 1: glass has coloured the sunlight
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { DirectParams params; };
@@ -59,7 +60,8 @@ vec3 radianceAt(ivec2 pixel, out vec3 emitters) {
     vec3 base = texelFetch(baseColor, pixel, 0).rgb;
     Surface s = surfaceAt(pixel, base, m, dot(n, v), ggxTable, lambertOnly != 0u);
 
-    float visibility = texelFetch(sunVisibility, pixel, 0).r;
+    vec3 visibility = texelFetch(sunVisibility, pixel, 0).rgb;
+    visibility = coloredSun != 0u ? visibility : visibility.rrr;
     vec3 radiance = emissionAt(texelFetch(emissive, pixel, 0).rgb, base, m, params.view.preExposure);
     Surface underSun = s;
     underSun.roughness = max(s.roughness, params.sunRoughness);

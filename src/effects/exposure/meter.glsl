@@ -15,6 +15,15 @@ const float lightestGrey = 0.6f;
 const float darkestShare = 0.1f;
 const float lightShare = 0.7f;
 const float brightestShare = 0.9f;
+// Highlights keep their drawing: so many pixels of surfaces may be lighter than this, as far as a stop less is enough.
+const float lightestHighlight = 3.0f;
+const float highlightShare = 0.99f;
+// The mean of a background that fills this share of the pixels is at most this, so that the sky behind black things is
+// not burnt. With a smaller share, as of a window, it may be lighter by so many stops.
+const float lightestBackground = 0.6f;
+const float windowShare = 0.15f;
+const float backgroundShare = 0.45f;
+const float windowStops = 4.0f;
 // Surfaces with this share of the pixels that are not black decide alone.
 const float enoughSurface = 0.01f;
 
@@ -59,8 +68,11 @@ float exposureFor(uint kind, uint total) {
     if (total == 0u) {
         return 0.0f;
     }
-    return min(log2(middleGrey) - meterMean(kind, total, darkestShare, brightestShare),
-               log2(lightestGrey) - meterMean(kind, total, lightShare, brightestShare));
+    float ofTones = min(log2(middleGrey) - meterMean(kind, total, darkestShare, brightestShare),
+                        log2(lightestGrey) - meterMean(kind, total, lightShare, brightestShare));
+    float margin = 0.5f * (1.0f - highlightShare);
+    float highlights = meterMean(kind, total, highlightShare - margin, highlightShare + margin);
+    return min(ofTones, max(log2(lightestHighlight) - highlights, ofTones - 1.0f));
 }
 
 // Stops for the whole histogram.
@@ -71,8 +83,12 @@ float meteredExposure() {
     if (background == 0u) {
         return ofSurfaces;
     }
-    float weight = min(float(surfaces) / (enoughSurface * float(surfaces + background)), 1.0f);
-    return mix(exposureFor(meterBackground, background), ofSurfaces, weight);
+    float all = float(surfaces + background);
+    float slack = windowStops * (1.0f - smoothstep(windowShare, backgroundShare, float(background) / all));
+    float seen = meterMean(meterBackground, background, darkestShare, brightestShare);
+    float limit = log2(lightestBackground) - seen + slack;
+    float weight = min(float(surfaces) / (enoughSurface * all), 1.0f);
+    return mix(exposureFor(meterBackground, background), min(ofSurfaces, limit), weight);
 }
 
 #endif

@@ -38,7 +38,8 @@ struct GBuffer {
                            ///< both alphas), metallic, occlusion, flags / 255
     gpu::Image emissive;   ///< B10G11R11: emitted radiance, pre-exposed
     gpu::Image motion;     ///< RGBA16F: uv now minus uv last frame; the surface's own motion away from the camera along
-                           ///< its axis [m], exactly 0 at rest; alpha of blended surfaces, share of clear coats, else 0
+                           ///< its axis [m], exactly 0 at rest; alpha of blended surfaces, coverage of glass, share of
+                           ///< clear coats, else 0
     gpu::Image reflectance{};  ///< RGBA16F: F0 of the dielectric over 4 %, F90; null unless a material differs from 1
     gpu::Image layers{};       ///< RG32_UINT: sheen and anisotropy (packLayers); null unless a material has either
     uint32_t features = 0;     ///< materialFeature… of the draw list

@@ -1,5 +1,6 @@
 // Sunlight that blended surfaces let through. In: the sun's visibility, and for two layers of blended surfaces their
-// depth from the sun, the share of light that passes and the extinction behind. Out: the visibility times that share.
+// depth from the sun, the share of light that passes; the extinction behind the first. Out: the visibility times that
+// share, in colour.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 float loadShadowDepth(ivec2 texel) { return 0.0; }  // of the opaque surfaces, not used
@@ -20,7 +21,8 @@ uniform sampler2D depth0;
 uniform sampler2D depth1;
 uniform sampler2D transmittance0;
 uniform sampler2D transmittance1;
-layout(r8) uniform writeonly image2D visibility;
+uniform sampler2D extinction0;
+layout(rgba8) uniform writeonly image2D visibility;
 
 // Metres from a layer's texel to the receiver, whose plane is at `plane` metres above the receiver there; 0: the layer is
 // not in the light's way.
@@ -30,22 +32,22 @@ float inFront(float d, ShadowReceiver r, float plane) {
 }
 
 // Share of the light that passes both layers' texels. Between them is the volume that the light enters at the first one.
-float passes(ivec2 texel, ShadowReceiver r, float plane) {
+vec3 passes(ivec2 texel, ShadowReceiver r, float plane) {
     float first = inFront(texelFetch(depth0, texel, 0).r, r, plane);
     float second = inFront(texelFetch(depth1, texel, 0).r, r, plane);
-    vec2 of0 = texelFetch(transmittance0, texel, 0).rg;
-    float of1 = texelFetch(transmittance1, texel, 0).r;
-    float share = (first > 0.0 ? of0.r : 1.0) * (second > 0.0 ? of1 : 1.0);
-    return share * (first > 0.0 && second > 0.0 ? exp(-of0.g * (first - second)) : 1.0);
+    vec3 share = first > 0.0 ? texelFetch(transmittance0, texel, 0).rgb : vec3(1.0);
+    share *= second > 0.0 ? texelFetch(transmittance1, texel, 0).rgb : vec3(1.0);
+    float path = first > 0.0 && second > 0.0 ? first - second : 0.0;
+    return share * exp(-path * texelFetch(extinction0, texel, 0).rgb);
 }
 
 // Bilinear over four texels.
-float transmittanceIn(uint cascade, vec3 p, vec3 normal) {
+vec3 transmittanceIn(uint cascade, vec3 p, vec3 normal) {
     ShadowTile tile = ShadowTile(cascadeTileOrigin(cascade, params.resolution), ivec2(params.resolution));
     ShadowReceiver r = slopeReceiver(p, normal, params.sun.maps[cascade], tile, params.bias, rounding(p));
     ivec2 corner = ivec2(floor(r.at - 0.5));
     vec2 f = r.at - 0.5 - vec2(corner);
-    float sum = 0.0;
+    vec3 sum = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
         ivec2 offset = ivec2(i & 1, i >> 1);
         ivec2 texel = clamp(corner + offset, ivec2(0), tile.size - 1);
@@ -64,8 +66,8 @@ void main() {
         return;
     }
     float d = texelFetch(depth, pixel, 0).r;
-    float visible = texelFetch(sunVisibility, pixel, 0).r;
-    if (d > 0.0 && visible > 0.0) {
+    vec3 visible = vec3(texelFetch(sunVisibility, pixel, 0).r);
+    if (d > 0.0 && visible.r > 0.0) {
         vec3 p = uvToWorld(pixelToUv(pixel, params.view.pixel), d, params.view.clipToWorld);
         vec3 normal = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
         Cascade c = Cascade(0u, 0.0);
@@ -74,5 +76,5 @@ void main() {
         }
         visible *= transmittanceIn(c.index, p, normal);
     }
-    imageStore(visibility, pixel, vec4(visible));
+    imageStore(visibility, pixel, vec4(visible, 1.0));
 }

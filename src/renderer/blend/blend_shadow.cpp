@@ -10,13 +10,15 @@ BlendShadowMaps drawBlendShadowMaps(gpu::PassList& f, BlendShadowStore& own, con
                                     const SunShadowParams& sun, const ShadowSettings& settings) {
     const uvec2 size = sunMapSize(sun, settings);
     const VkClearColorValue all{{1, 1, 1, 1}};
+    const VkClearColorValue none{};
     BlendShadowMaps maps;
     for (uint32_t layer = 0; layer < blendShadowLayers; ++layer) {
         const std::string name = "blend_shadow_map." + std::to_string(layer);
         BlendShadowMap& map = maps.at(layer);
         BlendShadowStore::Layer& store = own.layers.at(layer);
         map = {store.depth.target(f, VK_FORMAT_D32_SFLOAT, size),
-               store.transmittance.target(f, VK_FORMAT_R16G16_SFLOAT, size)};
+               store.transmittance.target(f, VK_FORMAT_R16G16B16A16_SFLOAT, size),
+               store.extinction.target(f, VK_FORMAT_R16G16B16A16_SFLOAT, size)};
         if (holdsSunMap(f, store.depth, list, sun, settings)) {
             continue;
         }
@@ -25,6 +27,7 @@ BlendShadowMaps drawBlendShadowMaps(gpu::PassList& f, BlendShadowStore& own, con
             .constant("peeled", layer)
             .constant("usedSlots", list.textureSlots)
             .color("transmittance", map.transmittance, all)
+            .color("extinction", map.extinction, none)
             .depth(map.depth, 0.0F)
             .vertices(vertexLayout(), list.materialLayout)
             .params(sun)
@@ -37,7 +40,7 @@ BlendShadowMaps drawBlendShadowMaps(gpu::PassList& f, BlendShadowStore& own, con
 
 gpu::Image blendShadow(gpu::PassList& f, const GBuffer& g, const BlendShadowMaps& maps, gpu::Image sunVisibility,
                        const BlendShadowParams& params) {
-    const gpu::Image visibility = f.image("blend_visibility", VK_FORMAT_R8_UNORM, g.depth.size);
+    const gpu::Image visibility = f.image("blend_visibility", VK_FORMAT_R8G8B8A8_UNORM, g.depth.size);
     f.compute("blend_shadow", "blend_shadow.comp")
         .read("depth", g.depth)
         .read("geometricNormal", g.geometricNormal)
@@ -46,6 +49,7 @@ gpu::Image blendShadow(gpu::PassList& f, const GBuffer& g, const BlendShadowMaps
         .read("depth1", maps[1].depth)
         .read("transmittance0", maps[0].transmittance)
         .read("transmittance1", maps[1].transmittance)
+        .read("extinction0", maps[0].extinction)
         .write("visibility", visibility)
         .constant("cascades", params.sun.count)
         .params(params)

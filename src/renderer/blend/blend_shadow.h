@@ -34,7 +34,8 @@ namespace reflet {
 /// A layer, as wide as the sun's shadow map.
 struct BlendShadowMap {
     gpu::Image depth;          ///< D32, reversed; 0: nothing
-    gpu::Image transmittance;  ///< RG16F: share of the light that passes; extinction behind it [1/m]
+    gpu::Image transmittance;  ///< RGBA16F: share of the light that passes
+    gpu::Image extinction;  ///< RGBA16F: behind it [1/m]; only the first layer's is read, where light enters a volume
 };
 using BlendShadowMaps = std::array<BlendShadowMap, blendShadowLayers>;
 
@@ -43,6 +44,7 @@ struct BlendShadowStore {
     struct Layer {
         gpu::KeptImage depth{"blend_shadow_map.depth"};
         gpu::KeptImage transmittance{"blend_shadow_map.transmittance"};
+        gpu::KeptImage extinction{"blend_shadow_map.extinction"};
     };
     std::array<Layer, blendShadowLayers> layers;
 };
@@ -50,7 +52,7 @@ struct BlendShadowStore {
 BlendShadowMaps drawBlendShadowMaps(gpu::PassList& f, BlendShadowStore& own, const DrawList& list,
                                     const SunShadowParams& sun, const ShadowSettings& settings);
 
-/// The sun's visibility (R8) times what the blended surfaces let through.
+/// RGBA8: the sun's visibility (R8) times what the blended surfaces let through of each colour.
 gpu::Image blendShadow(gpu::PassList& f, const GBuffer& g, const BlendShadowMaps& maps, gpu::Image sunVisibility,
                        const BlendShadowParams& params);
 

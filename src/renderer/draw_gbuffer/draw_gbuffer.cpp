@@ -16,6 +16,9 @@ uint32_t translucentOf(const GBufferContent& content) {
     if (content.coat) {
         return content.blendedCoats ? translucentBlendedCoat : content.glass ? translucentGlassCoat : translucentCoat;
     }
+    if (content.otherSide) {
+        return translucentOtherSide;
+    }
     return content.glass ? translucentGlass : translucentBlended;
 }
 
@@ -40,7 +43,7 @@ GBuffer drawGBuffer(gpu::PassList& f, const DrawList& list, const ViewParams& vi
     const bool blended = bool(content.opaqueDepth);
     const uint32_t surfaces = !blended ? surfacesOpaque : content.nearerDepth ? surfacesBehind : surfacesNearest;
     const bool clipped = clipPlane != vec4(0.0F);
-    const uint32_t features = content.coat ? 0 : list.materialFeatures;
+    const uint32_t features = content.coat || content.otherSide ? 0 : list.materialFeatures;
     const bool layers = (features & (materialFeatureSheen | materialFeatureAnisotropy)) != 0;
     const bool reflectance = layers || (features & materialFeatureReflectance) != 0;
     GBuffer g = targets(f, uvec2(view.size));
@@ -82,9 +85,10 @@ GBuffer drawGBuffer(gpu::PassList& f, const DrawList& list, const ViewParams& vi
     pass.draw([=, &list](const gpu::DrawCommands& to) {
         const auto keep = [&](const Draw& draw) {
             const bool opaque = draw.alpha >= content.blendedFrom && !(content.withoutGlass && draw.glass);
-            const bool opaqueCoats = content.coat && !content.blendedCoats;
-            const bool layer = content.glass ? draw.glass : opaqueCoats ? opaque : draw.blended;
-            const bool drawn = (blended ? layer : opaque) && (draw.coated || !content.coat);
+            const bool ofOpaque = (content.coat && !content.blendedCoats) || content.otherSide;
+            const bool layer = content.glass ? draw.glass : ofOpaque ? opaque : draw.blended;
+            const bool drawn = (blended ? layer : opaque) && (draw.coated || !content.coat) &&
+                               (draw.diffuseTransmission || !content.otherSide);
             return drawn && (!clipped || isInFront(draw.boundsW, clipPlane));
         };
         recordDraws(to, list, {keep, Cull::back, true, view.worldToClip, 0, content.bothSides}, true);

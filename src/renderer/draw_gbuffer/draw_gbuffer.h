@@ -36,6 +36,7 @@ const uint translucentGlass = 1;
 const uint translucentCoat = 2;  // the clear coats of opaque surfaces
 const uint translucentGlassCoat = 3;
 const uint translucentBlendedCoat = 4;
+const uint translucentOtherSide = 5;  // opaque surfaces that transmit diffuse light, as lit from behind
 
 struct GBufferParams {
     ViewParams view;
@@ -66,7 +67,10 @@ struct GBufferContent {
     /// The clear coats of those surfaces, or of the opaque ones: black dielectrics of the standard reflectance, whose
     /// share is in the motion's alpha. opaqueDepth: of the surfaces themselves.
     bool coat = false;
-    bool blendedCoats = false;            ///< those of a layer of blended surfaces, not of the opaque ones
+    bool blendedCoats = false;  ///< those of a layer of blended surfaces, not of the opaque ones
+    /// The other side of opaque surfaces that transmit diffuse light: Lambert, with normals away from the camera.
+    /// opaqueDepth: as with coats.
+    bool otherSide = false;
     bool withoutGlass = false;            ///< transmissive surfaces do not count as opaque
     std::optional<uint32_t> bothSides{};  ///< index of a draw whose back faces are drawn, too
 };

@@ -4,12 +4,14 @@
 #include "effects/gbuffer/gbuffer.glsl"
 #include "renderer/draw_gbuffer/draw_gbuffer.h"
 #include "shaders/shading_normal.glsl"
+#include "shaders/thin_film.glsl"
 
 layout(constant_id = 0) const uint clipped = 0u;
-layout(constant_id = 2) const uint usedSlots = 32767u;
+layout(constant_id = 2) const uint usedSlots = 524287u;
 layout(constant_id = 3) const uint surfaces = surfacesOpaque;
 layout(constant_id = 4) const uint translucent = translucentBlended;
-const bool drawsCoats = translucent >= translucentCoat;
+const bool drawsCoats = translucent >= translucentCoat && translucent <= translucentBlendedCoat;
+const bool drawsOtherSide = translucent == translucentOtherSide;
 #include "renderer/material.glsl"
 
 layout(scalar) uniform ParamsBlock { GBufferParams params; };
@@ -95,6 +97,17 @@ vec3 shadingNormal() {
     return gl_FrontFacing ? n : -n;
 }
 
+#ifdef REFLET_REFLECTANCE_TARGET
+// KHR_materials_iridescence: colours the reflectance at normal incidence, of dielectrics in the texel of the reflectance
+// and of metals in their base colour, so that the reflectance is the film's at the angle of view.
+void addFilm(float cosine, float metallic, inout vec4 reflectance, inout vec3 baseColor) {
+    vec2 film = materialFilm(uv.xy, uv.zw);
+    vec3 f0 = reflectance.rgb * dielectricF0;
+    reflectance.rgb = mix(f0, filmF0At(cosine, material.film.y, film.y, f0), film.x) / dielectricF0;
+    baseColor = mix(baseColor, filmF0At(cosine, material.film.y, film.y, baseColor), film.x * metallic);
+}
+#endif
+
 // Share of the surface that is coated, and the coat's roughness.
 vec2 clearCoat() {
     vec2 coat = vec2(material.coat, material.coatRoughness);
@@ -124,7 +137,46 @@ bool isDrawn(float alpha, bool kept) {
         return opaque;
     }
     bool glass = translucent == translucentGlass || translucent == translucentGlassCoat;
-    return isPeeled() && (glass ? kept : translucent == translucentCoat ? opaque : isTranslucent(alpha));
+    bool glassKept = isBlended() ? alpha >= invisibleAlpha : kept;
+    bool ofOpaque = translucent == translucentCoat || drawsOtherSide;
+    return isPeeled() && (glass ? glassKept : ofOpaque ? opaque : isTranslucent(alpha));
+}
+
+vec2 roughnessAndMetallic() {
+    vec2 factors = vec2(material.roughness, material.metallic);
+    if (hasTexture(slotMetallicRoughness)) {
+        factors *= texture(metallicRoughnessTexture, slotUv(slotMetallicRoughness, uv.xy, uv.zw)).gb;
+    }
+    return factors;
+}
+
+float occlusionOfMap() {
+    if (!hasTexture(slotOcclusion)) {
+        return 1.0;
+    }
+    float o = texture(occlusionTexture, slotUv(slotOcclusion, uv.xy, uv.zw)).r;
+    return 1.0 + material.occlusionStrength * (o - 1.0);
+}
+
+// Pre-exposed.
+vec3 emittedRadiance() {
+    vec3 radiance = material.emissive * mix(params.view.preExposure, 1.0, material.preExposed);
+    if (hasTexture(slotEmissive)) {
+        radiance *= texture(emissiveTexture, slotUv(slotEmissive, uv.xy, uv.zw)).rgb;
+    }
+    return radiance;
+}
+
+// Alpha of the motion's image: coverage of glass, which a mask leaves whole; what glass leaves of its diffuse base.
+vec4 baseOfGlass(vec4 baseColor) {
+    float passes = materialTransmission(uv.xy, uv.zw) * (1.0 - material.metallic);  // metals stay as they are
+    return vec4(baseColor.rgb * (1.0 - passes), isBlended() ? baseColor.a : 1.0);
+}
+
+// Of diffuse light.
+float shareOfOtherSide() {
+    bool any = notInlined(uint(material.diffuseTransmission.a > 0.0), gl_FragCoord) != 0u;
+    return any && params.settings.lambertOnly == 0u ? materialDiffuseTransmission(uv.xy, uv.zw).a : 0.0;
 }
 
 void main() {
@@ -140,41 +192,42 @@ void main() {
     if (!isDrawn(baseColor.a, kept)) {
         discard;
     }
-    if (translucent == translucentGlass) {  // what is left of the diffuse base; metals stay as they are
-        baseColor.rgb *= 1.0 - materialTransmission(uv.xy, uv.zw) * (1.0 - material.metallic);
+    if (translucent == translucentGlass) {
+        baseColor = baseOfGlass(baseColor);
     }
-    vec2 roughnessMetallic = vec2(material.roughness, material.metallic);
-    if (hasTexture(slotMetallicRoughness)) {
-        roughnessMetallic *=
-            texture(metallicRoughnessTexture, slotUv(slotMetallicRoughness, uv.xy, uv.zw)).gb;
-    }
-    float occlusion = 1.0;
-    if (hasTexture(slotOcclusion)) {
-        float o = texture(occlusionTexture, slotUv(slotOcclusion, uv.xy, uv.zw)).r;
-        occlusion = 1.0 + material.occlusionStrength * (o - 1.0);
-    }
-    outEmissive = material.emissive * mix(params.view.preExposure, 1.0, material.preExposed);
-    if (hasTexture(slotEmissive)) {
-        outEmissive *= texture(emissiveTexture, slotUv(slotEmissive, uv.xy, uv.zw)).rgb;
-    }
+    vec2 roughnessMetallic = roughnessAndMetallic();
     uint flags = params.settings.lambertOnly != 0u ? materialFlagLambert : 0u;
     flags |= material.emitter != 0u ? materialFlagEmitter : 0u;
-    if (mayBeUnlit() && notInlined(material.unlit, gl_FragCoord) != 0u) {
+    bool unlit = mayBeUnlit() && notInlined(material.unlit, gl_FragCoord) != 0u;
+    bool bare = unlit || drawsCoats || drawsOtherSide;  // neither emits nor has an occlusion map
+    float occlusion = bare ? 1.0 : occlusionOfMap();
+    outEmissive = bare ? vec3(0.0) : emittedRadiance();
+    if (unlit) {
         flags |= materialFlagUnlit;
         roughnessMetallic = vec2(1.0, 0.0);
-        occlusion = 1.0;
-        outEmissive = vec3(0.0);
     }
     if (drawsCoats) {
         vec2 coat = clearCoat();
-        baseColor = vec4(vec3(0.0), coat.x);
+        float covered = translucent == translucentGlassCoat && isBlended() ? baseColor.a : 1.0;
+        baseColor = vec4(vec3(0.0), coat.x * covered);
         roughnessMetallic = vec2(coat.y, 0.0);
-        occlusion = 1.0;
-        outEmissive = vec3(0.0);
     }
 #ifdef REFLET_REFLECTANCE_TARGET
     outReflectance = materialReflectance(uv.xy, uv.zw);
+    if (!drawsCoats && !drawsOtherSide && notInlined(uint(material.film.x > 0.0), gl_FragCoord) != 0u) {
+        addFilm(max(dot(n, normalize(towardEye())), 0.0), roughnessMetallic.y, outReflectance, baseColor.rgb);
+    }
 #endif
+    if (drawsOtherSide) {
+        vec4 passes = materialDiffuseTransmission(uv.xy, uv.zw);
+        baseColor.rgb = passes.rgb * (passes.a * (1.0 - roughnessMetallic.y));
+        n = -n;
+        geometric = -geometric;
+        roughnessMetallic = vec2(1.0, 0.0);
+        flags = materialFlagLambert;
+    } else {
+        baseColor.rgb *= 1.0 - shareOfOtherSide() * (1.0 - roughnessMetallic.y);
+    }
 #ifdef REFLET_LAYERS_TARGET
     vec2 anisotropy = anisotropyAround(unpackUnitVector(packUnitVector(n)), roughnessMetallic.x);
     outLayers = packLayers(materialSheen(uv.xy, uv.zw), anisotropy);

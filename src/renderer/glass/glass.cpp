@@ -92,6 +92,7 @@ void glassOver(gpu::PassList& f, const GBuffer& g, gpu::Image layer, const Refra
         .constant("transmits", transmitted != nullptr ? 1U : 0U)
         .constant("disperses", transmitted != nullptr && transmitted->rays.count > 1 ? 1U : 0U)
         .read("depth", g.depth)
+        .read("motion", g.motion)
         .read("layer", layer)
         .read("behind", behind)
         .read("share", transmitted != nullptr ? transmitted->share : behind)

@@ -85,8 +85,8 @@ struct Refraction {
 RefractedRays refractRays(gpu::PassList& f, const GBuffer& g, const GlassSurfaces& glass, gpu::Image ggxTable,
                           const Refraction& kinds, const RefractParams& params);
 
-/// over = what the layer itself sends, where there is one, plus what it transmits (none: nothing); `behind` elsewhere.
-/// All RGBA16F. The alpha of `behind` is kept.
+/// over = what the layer itself sends, where there is one, plus what it transmits (none: nothing), over `behind` as far
+/// as the layer covers it. All RGBA16F. The alpha of `behind` is kept.
 void glassOver(gpu::PassList& f, const GBuffer& g, gpu::Image layer, const RefractedRays* transmitted,
                gpu::Image behind, gpu::Image over);
 

@@ -20,6 +20,7 @@ layout(location = 0) out uint outNormal;
 void main() {
     vec4 color;
     bool kept = materialBaseColor(uv.xy, uv.zw, vertexColor, color);
+    kept = isBlended() ? color.a >= invisibleAlpha : kept;
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     bool same = texelFetch(kind, pixel, 0).r == material.glass;
     if (!kept || !same || gl_FragCoord.z >= texelFetch(layerDepth, pixel, 0).r * (1.0 - peelTolerance)) {

@@ -3,7 +3,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "renderer/glass/glass.h"
-layout(constant_id = 0) const uint usedSlots = 32767u;
+layout(constant_id = 0) const uint usedSlots = 524287u;
 layout(constant_id = 1) const uint fromInside = 0u;  // 1: the camera is in a medium
 #include "renderer/material.glsl"
 #include "shaders/half_float.glsl"
@@ -31,6 +31,7 @@ void main() {
         metallic *= texture(metallicRoughnessTexture, slotUv(slotMetallicRoughness, uv.xy, uv.zw)).b;
     }
     float shown = texelFetch(layerDepth, ivec2(gl_FragCoord.xy), 0).r;
+    kept = isBlended() ? color.a >= invisibleAlpha : kept;
     if (!kept || abs(gl_FragCoord.z - shown) > 4.0 * peelTolerance * shown) {
         discard;
     }

@@ -1,4 +1,5 @@
-// Composites a layer of glass over the light behind it. In: the layer's depth and its own light; the light at the ends of
+// Composites a layer of glass over the light behind it. In: the layer's depth, its coverage (in the image of its
+// motion) and its own light; the light at the ends of
 // its refracted rays and their shares; the light behind. Out: the sum; its alpha is that of the light behind.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -11,6 +12,7 @@ layout(constant_id = 1) const uint disperses = 0u;
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { GlassOverParams params; };
 uniform sampler2D depth;
+uniform sampler2D motion;
 uniform sampler2D layer;
 uniform sampler2D behind;
 uniform sampler2D share;
@@ -24,7 +26,7 @@ void main() {
     }
     vec4 light = texelFetch(behind, pixel, 0);
     if (texelFetch(depth, pixel, 0).r > 0.0) {
-        light.rgb = texelFetch(layer, pixel, 0).rgb;
+        vec3 own = texelFetch(layer, pixel, 0).rgb;
         if (transmits != 0u) {
             vec4 passed = texelFetch(share, pixel, 0);
             vec3 beyond = imageLoad(answer, ivec3(pixel, 0)).rgb;
@@ -32,8 +34,9 @@ void main() {
                 beyond.g = imageLoad(answer, ivec3(pixel, 1)).g;
                 beyond.b = imageLoad(answer, ivec3(pixel, 2)).b;
             }
-            light.rgb += passed.rgb * beyond;
+            own += passed.rgb * beyond;
         }
+        light.rgb = mix(light.rgb, own, texelFetch(motion, pixel, 0).a);
     }
     imageStore(over, pixel, roundToHalf(vec4(clampToHalf(light.rgb), light.a)));
 }

@@ -1,6 +1,8 @@
 // Places probes automatically, by casting a few rays from each against all triangles.
 #include "renderer/probe/place_probes.h"
 
+#include "scene/ray_caster.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,86 +11,26 @@ namespace reflet {
 
 namespace {
 
+using Hit = RayCaster::Hit;
+
 constexpr float never = std::numeric_limits<float>::infinity();
 
-struct Triangle {
-    vec3 corner, edge1, edge2;
-};
+// The scene's instances: rays, and which of them are things.
+struct Bodies {
+    const Scene& scene;
+    RayCaster rays;
+    std::vector<bool> solid;  ///< whoever sees back faces of this instance is inside
 
-// Triangles of one instance in world space.
-struct Body {
-    Aabb bounds;
-    bool doubleSided;
-    bool solid;  ///< whoever sees back faces is inside
-    std::vector<Triangle> triangles;
-};
+    explicit Bodies(const Scene& s) : scene(s), rays(s), solid(s.instances.size(), true) {}
 
-std::vector<Body> bodiesOf(const Scene& scene) {
-    std::vector<Body> bodies;
-    for (const Instance& instance : scene.instances) {
-        const Mesh& mesh = scene.meshes[instance.mesh];
-        const bool mirrored = glm::determinant(mat3(instance.objectToWorld)) < 0.0F;
-        const bool doubleSided = scene.materials[mesh.material].doubleSided;
-        Body body{{}, doubleSided, !doubleSided, {}};
-        const auto corner = [&](size_t i) {
-            const vec3 p(instance.objectToWorld * vec4(mesh.positions[mesh.indices[i]], 1.0F));
-            body.bounds.add(p);
-            return p;
-        };
-        for (size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-            const vec3 a = corner(i);
-            const vec3 b = corner(i + (mirrored ? 2 : 1));
-            const vec3 c = corner(i + (mirrored ? 1 : 2));
-            body.triangles.push_back({a, b - a, c - a});
-        }
-        bodies.push_back(std::move(body));
+    [[nodiscard]] uint32_t count() const { return static_cast<uint32_t>(solid.size()); }
+    [[nodiscard]] bool doubleSided(uint32_t i) const {
+        return scene.materials[scene.meshes[scene.instances[i].mesh].material].doubleSided;
     }
-    return bodies;
-}
-
-struct Hit {
-    float distance = never;
-    bool inside = false;  ///< back face of a solid body
-    bool back = false;    ///< back face
+    [[nodiscard]] Hit trace(const vec3& from, const vec3& direction) const { return rays.cast(from, direction); }
+    /// Whether this is a back face of a thing.
+    [[nodiscard]] bool inside(const Hit& hit) const { return hit && hit.back && solid[hit.instance]; }
 };
-
-bool meets(const Aabb& box, const vec3& from, const vec3& direction) {
-    const vec3 a = (box.min - from) / direction;
-    const vec3 b = (box.max - from) / direction;
-    const vec3 low = glm::min(a, b);
-    const vec3 high = glm::max(a, b);
-    return std::max({low.x, low.y, low.z, 0.0F}) <= std::min({high.x, high.y, high.z});
-}
-
-// Möller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997.
-void intersect(const Body& body, const vec3& from, const vec3& direction, Hit& nearest) {
-    for (const Triangle& t : body.triangles) {
-        const vec3 p = glm::cross(direction, t.edge2);
-        const float determinant = glm::dot(t.edge1, p);
-        if (std::abs(determinant) < 1e-20F) {
-            continue;
-        }
-        const vec3 s = (from - t.corner) / determinant;
-        const float u = glm::dot(s, p);
-        const vec3 q = glm::cross(s, t.edge1);
-        const float v = glm::dot(direction, q);
-        const float distance = glm::dot(t.edge2, q);
-        if (u >= 0.0F && v >= 0.0F && u + v <= 1.0F && distance > 0.0F && distance < nearest.distance) {
-            nearest = {distance, determinant < 0.0F && body.solid, determinant < 0.0F};
-        }
-    }
-}
-
-// direction: no component may be 0; distances are in units of its length.
-Hit trace(const std::vector<Body>& bodies, const vec3& from, const vec3& direction) {
-    Hit nearest;
-    for (const Body& body : bodies) {
-        if (meets(body.bounds, from, direction)) {
-            intersect(body, from, direction, nearest);
-        }
-    }
-    return nearest;
-}
 
 // Direction along axis side / 2, tilted by the tangents `aside`. Never exactly along the axis, to avoid parallel
 // surfaces.
@@ -102,32 +44,32 @@ vec3 axisRay(int side, const vec2& aside) {
 }
 
 constexpr int sides = 6;
+constexpr float leastSurrounded = 0.2F;  // below, the sky lights nearly all that is seen, and a probe would hide it
 constexpr float clearance = 0.1F;  // smallest distance of surfaces to a probe, relative to the cell's shortest side
 
-struct Surroundings {
-    std::array<Hit, sides> hits;
-    [[nodiscard]] bool inside() const {  // by majority of the hits
-        const auto met = std::ranges::count_if(hits, [](const Hit& h) { return h.distance < never; });
-        return 2 * std::ranges::count_if(hits, &Hit::inside) > met;
-    }
-};
+using Surroundings = std::array<Hit, sides>;
 
-Surroundings castAxisRays(const std::vector<Body>& bodies, const vec3& from) {
+Surroundings castAxisRays(const Bodies& bodies, const vec3& from) {
     Surroundings around;
     for (int side = 0; side < sides; ++side) {
-        around.hits.at(side) = trace(bodies, from, axisRay(side, vec2(0.0F)));
+        around.at(side) = bodies.trace(from, axisRay(side, vec2(0.0F)));
     }
     return around;
 }
 
-bool encloses(const Body& body, const vec3& p) {
-    if (glm::any(glm::lessThan(p, body.bounds.min)) || glm::any(glm::greaterThan(p, body.bounds.max))) {
+// By majority of the hits.
+bool isInside(const Bodies& bodies, const Surroundings& around) {
+    const auto met = std::ranges::count_if(around, [](const Hit& h) { return bool(h); });
+    return 2 * std::ranges::count_if(around, [&](const Hit& h) { return bodies.inside(h); }) > met;
+}
+
+bool encloses(const Bodies& bodies, uint32_t body, const vec3& p) {
+    const Aabb& box = bodies.rays.bounds(body);
+    if (glm::any(glm::lessThan(p, box.min)) || glm::any(glm::greaterThan(p, box.max))) {
         return false;
     }
     for (int side = 0; side < sides; ++side) {
-        Hit hit;
-        intersect(body, p, axisRay(side, vec2(0.0F)), hit);
-        if (!hit.back) {
+        if (!bodies.rays.castAt(body, p, axisRay(side, vec2(0.0F))).back) {
             return false;
         }
     }
@@ -135,24 +77,24 @@ bool encloses(const Body& body, const vec3& p) {
 }
 
 // A closed mesh that is drawn from both sides may be a thing or a room. It is a room if the camera is in it.
-void findSolids(std::vector<Body>& bodies, const vec3& p, const vec3& eye) {
-    for (Body& body : bodies) {
-        body.solid = !body.doubleSided || (encloses(body, p) && !encloses(body, eye));
+void findSolids(Bodies& bodies, const vec3& p, const vec3& eye) {
+    for (uint32_t i = 0; i < bodies.count(); ++i) {
+        bodies.solid[i] = !bodies.doubleSided(i) || (encloses(bodies, i, p) && !encloses(bodies, i, eye));
     }
 }
 
 // Moves a point out of solid bodies through the nearest side; if there is none, it stays.
-vec3 leaveBodies(const std::vector<Body>& bodies, const vec3& from, float clear) {
+vec3 leaveBodies(const Bodies& bodies, const vec3& from, float clear) {
     const Surroundings around = castAxisRays(bodies, from);
-    if (!around.inside()) {
+    if (!isInside(bodies, around)) {
         return from;
     }
     vec3 best = from;
     float shortest = never;
     for (int side = 0; side < sides; ++side) {
-        const Hit& hit = around.hits.at(side);
+        const Hit& hit = around.at(side);
         const vec3 out = from + axisRay(side, vec2(0.0F)) * (hit.distance + clear);
-        if (hit.inside && hit.distance < shortest && !castAxisRays(bodies, out).inside()) {
+        if (bodies.inside(hit) && hit.distance < shortest && !isInside(bodies, castAxisRays(bodies, out))) {
             best = out;
             shortest = hit.distance;
         }
@@ -161,10 +103,10 @@ vec3 leaveBodies(const std::vector<Body>& bodies, const vec3& from, float clear)
 }
 
 // Moves away from surfaces closer than `clear`, or to the middle between two such walls.
-vec3 keepClear(const std::vector<Body>& bodies, vec3 p, float clear) {
+vec3 keepClear(const Bodies& bodies, vec3 p, float clear) {
     for (int axis = 0; axis < 3; ++axis) {
-        const float ahead = trace(bodies, p, axisRay(2 * axis, vec2(0.0F))).distance;
-        const float behind = trace(bodies, p, axisRay(2 * axis + 1, vec2(0.0F))).distance;
+        const float ahead = bodies.trace(p, axisRay(2 * axis, vec2(0.0F))).distance;
+        const float behind = bodies.trace(p, axisRay(2 * axis + 1, vec2(0.0F))).distance;
         if (ahead < clear || behind < clear) {
             const float room = 0.5F * (ahead + behind);
             p[axis] += std::min(clear, room) > behind ? std::min(clear, room) - behind : ahead - std::min(clear, room);
@@ -173,14 +115,77 @@ vec3 keepClear(const std::vector<Body>& bodies, vec3 p, float clear) {
     return p;
 }
 
-Aabb boxAround(const std::vector<Body>& bodies, const vec3& p, const Aabb& sceneBounds) {
+// The i-th of `count` directions, evenly over the sphere (a Fibonacci lattice).
+vec3 spread(int i, int count) {
+    const float height = 1.0F - (2.0F * static_cast<float>(i) + 1.0F) / static_cast<float>(count);
+    const float turn = static_cast<float>(i) * glm::pi<float>() * (3.0F - std::sqrt(5.0F));
+    const float radius = std::sqrt(1.0F - height * height);
+    return {radius * std::cos(turn), height, radius * std::sin(turn)};
+}
+
+// Share of the directions in which nothing is.
+float openness(const Bodies& bodies, const vec3& p) {
+    constexpr int count = 64;
+    int open = 0;
+    for (int i = 0; i < count; ++i) {
+        open += bodies.trace(p, spread(i, count)) ? 0 : 1;
+    }
+    return static_cast<float>(open) / static_cast<float>(count);
+}
+
+// Share of the light on what the camera sees that comes from other surfaces: of cosine-distributed rays from there
+// those that meet one. 0 of a single convex object.
+float surrounded(const Bodies& bodies, const Aabb& bounds, const vec3& eye) {
+    constexpr int views = 256;
+    constexpr int each = 8;
+    const float least = 1e-4F * glm::length(bounds.size());
+    int rays = 0;
+    int met = 0;
+    for (int i = 0; i < views; ++i) {
+        // Toward a place in the bounds, so that the camera's direction does not matter.
+        const vec3 place =
+            bounds.center() + 0.5F * bounds.size() * spread(i, views) * (static_cast<float>(i % 4) + 0.5F) / 4.0F;
+        const vec3 direction = place - eye;
+        const Hit seen = bodies.rays.cast(eye, direction, RayCaster::Faces::drawn);
+        if (!seen || !(glm::length(direction) > 0.0F)) {
+            continue;
+        }
+        const vec3 at = eye + direction * seen.distance;
+        for (int k = 0; k < each; ++k) {
+            const vec3 away = seen.normal + 0.999F * spread((i * 7 + k * 31) % views, views);
+            rays += 1;
+            met += bodies.trace(at + seen.normal * least, away) ? 1 : 0;
+        }
+    }
+    return rays > 0 ? static_cast<float>(met) / static_cast<float>(rays) : 1.0F;
+}
+
+// The camera sees nothing of the closed space that it is in: that is in a thing, or behind its walls.
+bool isHidden(const Bodies& bodies, const vec3& p, const vec3& eye) {
+    constexpr float closed = 0.1F;
+    constexpr int count = 64;
+    if (openness(bodies, p) > closed || openness(bodies, eye) < 0.5F) {
+        return false;
+    }
+    for (int i = 0; i < count; ++i) {
+        const vec3 direction = spread(i, count);
+        const Hit wall = bodies.trace(p, direction);
+        const vec3 place = p + direction * (wall ? 0.98F * wall.distance : 0.0F);
+        if (!(bodies.rays.cast(eye, place - eye, RayCaster::Faces::drawn).distance < 1.0F)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+Aabb boxAround(const Bodies& bodies, const vec3& p, const Aabb& sceneBounds) {
     constexpr std::array<vec2, 5> asides{vec2(0, 0), vec2(0.5F, 0.5F), vec2(-0.5F, 0.5F), vec2(0.5F, -0.5F),
                                          vec2(-0.5F, -0.5F)};
     Aabb box;
     for (int side = 0; side < sides; ++side) {
         std::array<float, asides.size()> reach{};  // distances along the axis, as a ray's component there is 1
         std::ranges::transform(asides, reach.begin(),
-                               [&](const vec2& aside) { return trace(bodies, p, axisRay(side, aside)).distance; });
+                               [&](const vec2& aside) { return bodies.trace(p, axisRay(side, aside)).distance; });
         std::ranges::nth_element(reach, reach.begin() + reach.size() / 2);
         const float median = reach[reach.size() / 2];
         const int axis = side / 2;
@@ -212,10 +217,13 @@ glm::uvec3 cellsOf(const vec3& size, uint32_t count) {
 }  // namespace
 
 std::vector<Probe> placeProbes(const Scene& scene, uint32_t count, const vec3& eye) {
-    std::vector<Body> bodies = bodiesOf(scene);
     const Aabb bounds = scene.bounds();
     std::vector<Probe> probes;
     if (bounds.empty() || count == 0) {
+        return probes;
+    }
+    Bodies bodies(scene);
+    if (surrounded(bodies, bounds, eye) < leastSurrounded) {
         return probes;
     }
     const glm::uvec3 cells = cellsOf(bounds.size(), std::min(count, View::maxProbes));
@@ -226,7 +234,9 @@ std::vector<Probe> placeProbes(const Scene& scene, uint32_t count, const vec3& e
         const vec3 middle = bounds.min + (vec3(at) + 0.5F) * cell;
         findSolids(bodies, middle, eye);
         const vec3 p = keepClear(bodies, leaveBodies(bodies, middle, clear), clear);
-        probes.push_back({p, boxAround(bodies, p, bounds)});
+        if (!isInside(bodies, castAxisRays(bodies, p)) && !isHidden(bodies, p, eye)) {
+            probes.push_back({p, boxAround(bodies, p, bounds)});
+        }
     }
     return probes;
 }

@@ -26,6 +26,7 @@ layout(local_size_x = 128) in;
 layout(constant_id = 1) const uint morphed = 0u;  // 1: some vertices have morph targets
 layout(scalar) uniform ParamsBlock { SkinParams params; };
 layout(scalar) readonly buffer VertexBlock { SkinnedVertex items[]; } vertices;
+layout(scalar) readonly buffer JointWeightBlock { SkinnedWeight items[]; } jointWeights;
 layout(scalar) readonly buffer JointBlock { mat4x3 items[]; } joints;
 layout(scalar) buffer PositionBlock { vec3 items[]; } positions;
 layout(scalar) writeonly buffer PreviousPositionBlock { vec3 items[]; } previousPositions;
@@ -35,12 +36,13 @@ layout(scalar) readonly buffer DeltaBlock { MorphDelta items[]; } deltas;
 layout(scalar) readonly buffer WeightBlock { float items[]; } morphWeights;
 
 mat4x3 toWorld(SkinnedVertex v, uint firstJoint) {
-    if (morphed != 0u && v.joints[0] == noJoint) {
+    if (v.jointCount == 0u) {
         return mat4x3(1.0);
     }
     mat4x3 sum = mat4x3(0.0);
-    for (int i = 0; i < 4; ++i) {
-        sum += v.weights[i] * joints.items[firstJoint + v.joints[i]];
+    for (uint i = v.firstJoint; i < v.firstJoint + v.jointCount; ++i) {
+        SkinnedWeight moved = jointWeights.items[i];
+        sum += moved.weight * joints.items[firstJoint + moved.joint];
     }
     return sum;
 }

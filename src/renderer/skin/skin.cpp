@@ -26,11 +26,11 @@ void SkinnedVertices::add(const Scene& scene, size_t instance, uint32_t firstSou
     const Mesh& mesh = scene.meshes.at(placed.mesh);
     const uint32_t firstJoint = firstJointOf(scene, placed.skin);
     for (uint32_t i = 0; i < mesh.positions.size(); ++i) {
-        SkinnedVertex v{firstSource + i, {noJoint, noJoint, noJoint, noJoint}, vec4(0.0F)};
+        SkinnedVertex v{firstSource + i, static_cast<uint32_t>(addedWeights_.size()), 0};
         if (placed.skin >= 0) {
-            v.weights = mesh.skin[i].weights;
-            for (int k = 0; k < 4; ++k) {
-                v.joints[k] = firstJoint + mesh.skin[i].joints[k];
+            for (const JointWeight& moved : mesh.jointsOf(i)) {
+                addedWeights_.push_back({firstJoint + moved.joint, moved.weight});
+                ++v.jointCount;
             }
         }
         added_.push_back(v);
@@ -67,7 +67,10 @@ void SkinnedVertices::upload(gpu::Device& device, const Scene& scene, uint32_t f
                                   "skinned vertices");
     joints_ = gpu::Buffer(device, VkDeviceSize(2) * std::max(jointCount_, 1U) * sizeof(glm::mat4x3),
                           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, gpu::MemoryUse::upload, "joints");
+    addedWeights_.resize(std::max<size_t>(addedWeights_.size(), 1));
+    jointWeights_ = gpu::uploadVector(device, addedWeights_, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "joint weights");
     added_ = {};
+    addedWeights_ = {};
     if (weightCount_ > 0) {
         uploadMorphs(device);
     }
@@ -119,6 +122,7 @@ void SkinnedVertices::record(gpu::PassList& f, const Buffers& vertices) const {
     f.compute("skin", "skin.comp")
         .constant("morphed", morphs ? 1U : 0U)
         .read("vertices", vertices_.view())
+        .read("jointWeights", jointWeights_.view())
         .read("joints", joints_.view())
         .read("morphs", morphs ? morphs_.view() : vertices_.view())
         .read("deltas", morphs ? deltas_.view() : vertices_.view())

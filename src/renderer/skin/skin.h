@@ -1,7 +1,7 @@
 // Skinned and morphed meshes: a pass writes their vertices for this frame and the last one to vertex buffers, so that
 // draws need no knowledge of skins and morph targets. Weighted sums of morph targets, then linear blend skinning
 // (Magnenat-Thalmann, Laperrière and Thalmann, Joint-Dependent Local Deformations for Hand Animation and Object
-// Grasping, 1988), up to four joints a vertex. Shared by C++ and GLSL.
+// Grasping, 1988), any number of joints a vertex. Shared by C++ and GLSL.
 #ifndef REFLET_RENDERER_SKIN_H
 #define REFLET_RENDERER_SKIN_H
 
@@ -9,13 +9,16 @@
 
 SHARED_BEGIN
 
-const uint noJoint = 0xFFFFFFFFu;
-
 // Skinning inputs of one vertex. Indices count over all meshes and all skins.
 struct SkinnedVertex {
-    uint source;     // vertex in bind pose; the skinned vertex i is vertex SkinParams.firstVertex + i
-    uint joints[4];  // noJoint: morphed only, and stays in object space
-    vec4 weights;
+    uint source;      // vertex in bind pose; the skinned vertex i is vertex SkinParams.firstVertex + i
+    uint firstJoint;  // index of its first SkinnedWeight
+    uint jointCount;  // 0: morphed only, and stays in object space
+};
+
+struct SkinnedWeight {
+    uint joint;
+    float weight;  // those of a vertex sum to 1
 };
 
 // The morph deltas of one vertex. Indices count over all meshes and instances.
@@ -75,11 +78,13 @@ private:
     uint32_t jointCount_ = 0;
     uint32_t weightCount_ = 0;
     std::vector<SkinnedVertex> added_;
+    std::vector<SkinnedWeight> addedWeights_;
     std::vector<MorphedVertex> addedMorphs_;  ///< one per added vertex; those without morph targets have no deltas
     std::vector<MorphDelta> addedDeltas_;
     std::map<uint32_t, uint32_t> firstDelta_;  ///< of meshes
     std::vector<size_t> morphed_;              ///< instances, in the order of their weights
     gpu::Buffer vertices_;
+    gpu::Buffer jointWeights_;
     gpu::Buffer joints_;   ///< mat4x3, host visible
     gpu::Buffer morphs_;   ///< these three: only with morph targets
     gpu::Buffer deltas_;   ///< MorphDelta

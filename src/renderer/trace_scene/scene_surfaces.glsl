@@ -125,7 +125,8 @@ bool acceptHit(uint triangle, vec2 barycentrics, vec3 direction) {
     float alpha = color.a;
     if (sceneMaterials.items[place.material].params.transmission > 0.0) {
         float share =
-            glassShare(sceneMaterials.items[place.material].params, sceneTransmission(place), color.rgb);
+            luminance(glassShare(sceneMaterials.items[place.material].params, sceneTransmission(place), color.rgb));
+        share = sceneMaterials.items[place.material].params.blended != 0u ? mix(1.0, share, alpha) : share;
         return chanceOfHit(triangle, barycentrics, direction) >= share;
     }
     if (sceneMaterials.items[place.material].params.blended != 0u) {

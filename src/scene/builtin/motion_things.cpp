@@ -66,9 +66,7 @@ void addSwingingFigure(Scene& scene, const vec3& foot) {
         const float along = glm::clamp(p.y / step - 0.5F, 0.0F, float(joints - 1));
         const auto below = std::min(static_cast<uint16_t>(along), uint16_t(joints - 2));
         const float share = along - static_cast<float>(below);
-        VertexSkin& vertex = mesh.skin.emplace_back();
-        vertex.joints = {below, below + 1, 0, 0};
-        vertex.weights = {1.0F - share, share, 0, 0};
+        mesh.addSkin(std::array{JointWeight{below, 1.0F - share}, JointWeight{below + 1U, share}});
     }
     Skin skin;
     for (int i = 0; i < joints; ++i) {

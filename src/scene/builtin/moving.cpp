@@ -82,9 +82,7 @@ Mesh tube() {
         const float place = glm::clamp(p.y / tubeStep - 0.5F, 0.0F, float(tubeJoints - 1));
         const auto below = std::min(static_cast<uint16_t>(place), uint16_t(tubeJoints - 2));
         const float share = place - static_cast<float>(below);
-        VertexSkin& vertex = mesh.skin.emplace_back();
-        vertex.joints = {below, below + 1, 0, 0};
-        vertex.weights = {1.0F - share, share, 0, 0};
+        mesh.addSkin(std::array{JointWeight{below, 1.0F - share}, JointWeight{below + 1U, share}});
     }
     return mesh;
 }

@@ -7,6 +7,7 @@
 #include "scene/gltf/container.h"
 #include "scene/gltf/meshopt.h"
 #include "scene/gltf/schema.h"
+#include "scene/gltf/schema_tables.h"
 #include "scene/gltf/uri.h"
 
 #include <algorithm>
@@ -48,10 +49,8 @@ struct UnsupportedExtension {
     std::string_view name;
     std::string_view consequence;
 };
-constexpr std::array<UnsupportedExtension, 5> unsupportedExtensions{
-    {{"KHR_materials_diffuse_transmission", "translucent surfaces will be drawn opaque"},
-     {"KHR_materials_iridescence", "iridescence will be missing"},
-     {"EXT_texture_avif", "AVIF textures will be missing"},
+constexpr std::array<UnsupportedExtension, 3> unsupportedExtensions{
+    {{"EXT_texture_avif", "AVIF textures will be missing"},
      {"KHR_animation_pointer", "animated materials, lamps and cameras will stand still"},
      {"EXT_lights_image_based", "image-based light will be missing"}}};
 
@@ -63,13 +62,18 @@ std::string_view consequenceOf(std::string_view extension) {
                                                                 : "";
 }
 
+bool isHarmless(const std::string& extension) {
+    const auto& harmless = gltf_schema::harmlessExtensions;
+    return std::ranges::find(harmless, extension) != harmless.end();
+}
+
 /// A required extension can be done without if the consequence is known.
 void checkExtensions(const json& document, GltfReport& report) {
     std::set<std::string> told;
     for (const std::string name : arrayOf(document, "extensionsRequired")) {
         const std::string_view consequence = consequenceOf(name);
         const auto check = [&] {
-            if (!knownGltfExtension(name)) {
+            if (!knownGltfExtension(name) && !isHarmless(name)) {
                 report.fail("extensionsRequired", "{} is not supported: export the file without it", name);
             }
         };
@@ -80,7 +84,7 @@ void checkExtensions(const json& document, GltfReport& report) {
         }
     }
     for (const std::string name : arrayOf(document, "extensionsUsed")) {
-        if (!knownGltfExtension(name) && told.insert(name).second) {
+        if (!knownGltfExtension(name) && !isHarmless(name) && told.insert(name).second) {
             const std::string_view consequence = consequenceOf(name);
             report.warn("extension " + name, "extensionsUsed", "{}: {} is not supported",
                         consequence.empty() ? "the extension will be ignored" : consequence, name);

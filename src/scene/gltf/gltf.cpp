@@ -7,6 +7,7 @@
 #include "scene/opacity.h"
 
 #include <algorithm>
+#include <cmath>
 #include <new>
 #include <stdexcept>
 
@@ -36,6 +37,20 @@ std::vector<int> chooseScene(GltfDocument& document, int wanted, std::string& na
     return rootsOfGltfScene(document, static_cast<size_t>(chosen));
 }
 
+/// Turns the scene by a node of its own above its roots, so that the file's Z axis points up.
+std::vector<int> turnedUp(GltfDocument& document, const std::vector<int>& roots) {
+    const double half = std::sqrt(0.5);
+    tinygltf::Node turn;
+    turn.rotation = {-half, 0.0, 0.0, half};
+    turn.children = roots;
+    for (const int root : roots) {
+        document.isChild[static_cast<size_t>(root)] = true;
+    }
+    document.model.nodes.push_back(std::move(turn));
+    document.isChild.push_back(false);
+    return {static_cast<int>(document.model.nodes.size() - 1)};
+}
+
 std::vector<std::string> variantNames(const tinygltf::Model& model) {
     std::vector<std::string> names;
     if (const auto found = model.extensions.find("KHR_materials_variants"); found != model.extensions.end()) {
@@ -63,21 +78,23 @@ Scene readScene(const std::filesystem::path& path, const GltfOptions& options, G
     GltfDocument document = readGltfDocument(path, report);
     Scene scene;
     scene.fromFile = true;
-    const std::vector<int> roots = chooseScene(document, options.scene, scene.name, report);
+    std::vector<int> roots = chooseScene(document, options.scene, scene.name, report);
+    if (options.zUp) {
+        roots = turnedUp(document, roots);
+    }
     if (scene.name.empty()) {
         scene.name = path.stem().string();
     }
     GltfMaterials materials(document, scene, report);
+    scene.extensions = document.model.extensionsUsed;
     scene.variants = variantNames(document.model);
     GltfMeshes meshes(document, materials, scene, report, chooseVariant(scene.variants, options.variant, report));
     placeGltfNodes(document, roots, meshes, scene, report);
     checkGltfFocus(scene, report);
     makeOpaqueWhereAlphaIsOne(scene);
-    if (scene.instances.empty() && !report.firstProblem().empty()) {
-        report.fail("", "nothing is left to draw: {}", report.firstProblem());
-    }
     if (scene.instances.empty()) {
-        report.warn("empty", "scenes", "nothing will be drawn: the scene has no mesh that can be");
+        report.fail("", "nothing is left to draw: {}",
+                    report.firstProblem().empty() ? "no node of the scene shows a mesh" : report.firstProblem());
     }
     return scene;
 }

@@ -14,6 +14,8 @@ struct GltfOptions {
     int scene = -1;
     /// Name of the material variant (KHR_materials_variants) to load; empty: the file's default materials.
     std::string variant;
+    /// The file's Z axis points up, which becomes Y; in glTF it is Y, but some programs write Z.
+    bool zUp = false;
     /// Receives each kind of warning once, at the end: one line without a full stop, with the number of further cases.
     std::function<void(const std::string&)> warn;
     /// Invalid parts of the file are errors, even where the rest of it can be drawn.
@@ -24,7 +26,7 @@ struct GltfOptions {
 /// unless options.strict, only if nothing of the file can be drawn: otherwise it leaves out the smallest part that it
 /// can, with a warning. Never crashes or hangs on any input. URIs that leave the file's folder are refused.
 /// Supported: the extensions in knownExtensions (schema_tables.h); animations of translation, rotation, scale and
-/// morph weights; skins with four joints per vertex; PNG, JPEG, WebP and KTX 2 without Basis. An unsupported extension
+/// morph weights; skins; PNG, JPEG, WebP and KTX 2 without Basis. An unsupported extension
 /// is an error if it is required and the file makes no sense without it, else a warning.
 Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options = {});
 

@@ -40,6 +40,10 @@ Sampler convertSampler(const tinygltf::Sampler& source) {
             .mipLinear = mips && !nearestMip};
 }
 
+/// Textures are filtered, and colours interpolated, with rounding errors; alpha equal to the cutoff is opaque. Less
+/// than half of an 8-bit step.
+constexpr float cutoffTolerance = 1e-3F;
+
 double numberOr(const tinygltf::Value& object, const std::string& name, double otherwise) {
     return object.Has(name) ? object.Get(name).GetNumberAsDouble() : otherwise;
 }
@@ -55,6 +59,16 @@ vec3 emissiveOf(const tinygltf::Material& source) {
     return glm::dvec3(factor[0], factor[1], factor[2]) * strength;
 }
 
+void makeUnlit(Material& material) {
+    material.unlit = true;
+    material.transmission = {};
+    material.clearcoat = {};
+    material.sheen = {};
+    material.anisotropy = {};
+    material.iridescence = {};
+    material.diffuseTransmission = {};
+}
+
 /// KHR_materials_ior: 0 is allowed and means total reflection.
 float iorOf(const tinygltf::Value& extension, const std::string& part, GltfReport& report) {
     const double ior = numberOr(extension, "ior", defaultIor);
@@ -68,14 +82,18 @@ float iorOf(const tinygltf::Value& extension, const std::string& part, GltfRepor
 
 }  // namespace
 
-uint32_t GltfMaterials::use(int material) {
+uint32_t GltfMaterials::use(int material, bool lit) {
     const int key = std::max(material, -1);
-    const auto found = materials_.find(key);
+    const auto found = materials_.find({key, lit});
     if (found != materials_.end()) {
         return found->second;
     }
     scene_.materials.push_back(key < 0 ? Material{} : convert(key));
-    return materials_[key] = static_cast<uint32_t>(scene_.materials.size() - 1);
+    if (!lit) {
+        makeUnlit(scene_.materials.back());
+    }
+    uvSets_.push_back(chooseUvSets(scene_.materials.back(), fmt::format("materials[{}]", key)));
+    return materials_[{key, lit}] = static_cast<uint32_t>(scene_.materials.size() - 1);
 }
 
 Material GltfMaterials::convert(int material) {
@@ -94,34 +112,39 @@ Material GltfMaterials::convert(int material) {
     result.occlusionStrength = static_cast<float>(source.occlusionTexture.strength);
     result.doubleSided = source.doubleSided;
     if (source.alphaMode == "MASK") {
-        result.alphaCutoff = static_cast<float>(source.alphaCutoff);
+        result.alphaCutoff = std::max(static_cast<float>(source.alphaCutoff) - cutoffTolerance, 0.0F);
     } else if (source.alphaMode == "BLEND") {
         result.alphaCutoff = blendCutoff;
         result.blended = true;
     }
-    const auto slotOf = [&](const auto& info, const char* name) {
+    const auto slotOf = [&](const auto& info) {
         TextureSlot read;
         report_.tolerate("the texture will be left out",
-                         [&] { read = slot(info.index, info.texCoord, info.extensions, part + "." + name); });
+                         [&] { read = slot(info.index, info.texCoord, info.extensions); });
         return read;
     };
-    result.baseColorTexture = slotOf(pbr.baseColorTexture, "pbrMetallicRoughness.baseColorTexture");
-    result.metallicRoughnessTexture =
-        slotOf(pbr.metallicRoughnessTexture, "pbrMetallicRoughness.metallicRoughnessTexture");
-    result.normalTexture = slotOf(source.normalTexture, "normalTexture");
-    result.occlusionTexture = slotOf(source.occlusionTexture, "occlusionTexture");
-    result.emissiveTexture = slotOf(source.emissiveTexture, "emissiveTexture");
+    result.baseColorTexture = slotOf(pbr.baseColorTexture);
+    result.metallicRoughnessTexture = slotOf(pbr.metallicRoughnessTexture);
+    result.normalTexture = slotOf(source.normalTexture);
+    result.occlusionTexture = slotOf(source.occlusionTexture);
+    result.emissiveTexture = slotOf(source.emissiveTexture);
     readSpecular(result, source.extensions, part + ".extensions.");
     result.transmission = transmissionOf(source.extensions, part + ".extensions.");
-    result.clearcoat = clearcoatOf(source.extensions, part + ".extensions.");
-    result.sheen = sheenOf(source.extensions, part + ".extensions.");
-    result.anisotropy = anisotropyOf(source.extensions, part + ".extensions.");
+    // Both sides of a sheet let light through, so both are seen: a closed one tints what is behind it twice.
+    result.doubleSided =
+        result.doubleSided || (result.transmission.factor > 0.0F && !(result.transmission.thickness > 0.0F));
+    result.clearcoat = clearcoatOf(source.extensions);
+    result.sheen = sheenOf(source.extensions);
+    result.anisotropy = anisotropyOf(source.extensions);
+    result.iridescence = iridescenceOf(source.extensions);
+    result.diffuseTransmission = diffuseTransmissionOf(source.extensions);
+    if (const auto old = source.extensions.find("KHR_materials_pbrSpecularGlossiness");
+        old != source.extensions.end()) {
+        readSpecularGlossiness(result, old->second);
+    }
     result.unlit = source.extensions.contains("KHR_materials_unlit");
     if (result.unlit) {
-        result.transmission = {};
-        result.clearcoat = {};
-        result.sheen = {};
-        result.anisotropy = {};
+        makeUnlit(result);
     }
     if (source.extras.Has("camera")) {
         result.unlit = false;
@@ -141,17 +164,17 @@ void GltfMaterials::readSpecular(Material& material, const tinygltf::ExtensionMa
     if (found == extensions.end()) {
         return;
     }
-    const auto& [name, specular] = *found;
+    const tinygltf::Value& specular = found->second;
     material.specular = static_cast<float>(numberOr(specular, "specularFactor", 1.0));
     for (int c = 0; c < 3; ++c) {
         material.specularColor[c] = static_cast<float>(numberAt(specular, "specularColorFactor", c, 1.0));
     }
-    material.specularTexture = slotOf(specular, "specularTexture", part + name);
-    material.specularColorTexture = slotOf(specular, "specularColorTexture", part + name);
+    material.specularTexture = slotOf(specular, "specularTexture");
+    material.specularColorTexture = slotOf(specular, "specularColorTexture");
 }
 
 /// A texture that tinygltf keeps as plain values, because an extension refers to it.
-TextureSlot GltfMaterials::slotOf(const tinygltf::Value& object, const std::string& name, const std::string& part) {
+TextureSlot GltfMaterials::slotOf(const tinygltf::Value& object, const std::string& name) {
     if (!object.Has(name)) {
         return {};
     }
@@ -160,12 +183,10 @@ TextureSlot GltfMaterials::slotOf(const tinygltf::Value& object, const std::stri
     if (info.Has("extensions")) {
         extensions = info.Get("extensions").Get<tinygltf::Value::Object>();
     }
-    return slot(info.Get("index").GetNumberAsInt(), static_cast<int>(numberOr(info, "texCoord", 0)), extensions,
-                part + "." + name);
+    return slot(info.Get("index").GetNumberAsInt(), static_cast<int>(numberOr(info, "texCoord", 0)), extensions);
 }
 
-TextureSlot GltfMaterials::slot(int texture, int uvSet, const tinygltf::ExtensionMap& extensions,
-                                const std::string& part) {
+TextureSlot GltfMaterials::slot(int texture, int uvSet, const tinygltf::ExtensionMap& extensions) {
     TextureSlot result;
     if (texture < 0) {
         return result;
@@ -177,10 +198,10 @@ TextureSlot GltfMaterials::slot(int texture, int uvSet, const tinygltf::Extensio
     }
     result.image = useImage(image);
     result.sampler = useSampler(source.sampler);
-    setUvSet(result, uvSet, part);
+    result.uvSet = static_cast<uint32_t>(std::max(uvSet, 0));
     const auto transform = extensions.find("KHR_texture_transform");
     if (transform != extensions.end()) {
-        transformUv(result, transform->second, part);
+        transformUv(result, transform->second);
     }
     return result;
 }
@@ -212,24 +233,16 @@ int GltfMaterials::imageOf(const tinygltf::Texture& texture, const std::string& 
     return texture.source;
 }
 
-void GltfMaterials::setUvSet(TextureSlot& slot, int uvSet, const std::string& part) {
-    if (uvSet > 1) {
-        report_.warn("uv set", part + ".texCoord", "UV set 0 will be used, not {}: only sets 0 and 1 are supported",
-                     uvSet);
-    }
-    slot.uvSet = uvSet == 1 ? 1 : 0;
-}
-
 /// KHR_texture_transform: offset · rotation · scale. The sine in u' is positive, as in the extension's example, its
 /// wording ("counter-clockwise", with v down) and the common viewers; the matrix in early versions has it negative.
-void GltfMaterials::transformUv(TextureSlot& slot, const tinygltf::Value& transform, const std::string& part) {
+void GltfMaterials::transformUv(TextureSlot& slot, const tinygltf::Value& transform) {
     const double angle = numberOr(transform, "rotation", 0.0);
     const double scaleU = numberAt(transform, "scale", 0, 1.0);
     const double scaleV = numberAt(transform, "scale", 1, 1.0);
     slot.uvTransform[0] = {std::cos(angle) * scaleU, std::sin(angle) * scaleV, numberAt(transform, "offset", 0, 0.0)};
     slot.uvTransform[1] = {-std::sin(angle) * scaleU, std::cos(angle) * scaleV, numberAt(transform, "offset", 1, 0.0)};
     if (transform.Has("texCoord")) {
-        setUvSet(slot, transform.Get("texCoord").GetNumberAsInt(), part + ".extensions.KHR_texture_transform");
+        slot.uvSet = static_cast<uint32_t>(std::max(transform.Get("texCoord").GetNumberAsInt(), 0));
     }
 }
 

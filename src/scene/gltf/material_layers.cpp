@@ -1,5 +1,6 @@
 // Converts the material extensions for glass and layers: KHR_materials_transmission, KHR_materials_volume,
-// KHR_materials_dispersion, KHR_materials_clearcoat, KHR_materials_sheen and KHR_materials_anisotropy.
+// KHR_materials_dispersion, KHR_materials_clearcoat, KHR_materials_sheen, KHR_materials_anisotropy,
+// KHR_materials_iridescence and KHR_materials_diffuse_transmission.
 #include "scene/gltf/material.h"
 
 namespace reflet {
@@ -25,9 +26,9 @@ Transmission GltfMaterials::transmissionOf(const tinygltf::ExtensionMap& extensi
     if (found == extensions.end()) {
         return result;  // a volume beneath a surface that nothing passes is not seen
     }
-    const auto& [name, transmission] = *found;
+    const tinygltf::Value& transmission = found->second;
     result.factor = floatOr(transmission, "transmissionFactor", 0.0);
-    result.texture = slotOf(transmission, "transmissionTexture", part + name);
+    result.texture = slotOf(transmission, "transmissionTexture");
     const auto inside = extensions.find("KHR_materials_volume");
     if (inside == extensions.end()) {
         return result;
@@ -37,7 +38,7 @@ Transmission GltfMaterials::transmissionOf(const tinygltf::ExtensionMap& extensi
     if (const auto spread = extensions.find("KHR_materials_dispersion"); spread != extensions.end()) {
         result.dispersion = floatOr(spread->second, "dispersion", 0.0);
     }
-    result.thicknessTexture = slotOf(volume, "thicknessTexture", part + volumeName);
+    result.thicknessTexture = slotOf(volume, "thicknessTexture");
     const float distance = floatOr(volume, "attenuationDistance", 0.0);
     if (distance > 0.0F) {
         result.attenuationDistance = distance;
@@ -49,45 +50,75 @@ Transmission GltfMaterials::transmissionOf(const tinygltf::ExtensionMap& extensi
     return result;
 }
 
-Sheen GltfMaterials::sheenOf(const tinygltf::ExtensionMap& extensions, const std::string& part) {
+Sheen GltfMaterials::sheenOf(const tinygltf::ExtensionMap& extensions) {
     Sheen result;
     const auto found = extensions.find("KHR_materials_sheen");
     if (found == extensions.end()) {
         return result;
     }
-    const auto& [name, sheen] = *found;
+    const tinygltf::Value& sheen = found->second;
     result.color = colorOr(sheen, "sheenColorFactor", vec3(0.0F));
     result.roughness = floatOr(sheen, "sheenRoughnessFactor", 0.0);
-    result.colorTexture = slotOf(sheen, "sheenColorTexture", part + name);
-    result.roughnessTexture = slotOf(sheen, "sheenRoughnessTexture", part + name);
+    result.colorTexture = slotOf(sheen, "sheenColorTexture");
+    result.roughnessTexture = slotOf(sheen, "sheenRoughnessTexture");
     return result;
 }
 
-Anisotropy GltfMaterials::anisotropyOf(const tinygltf::ExtensionMap& extensions, const std::string& part) {
+Anisotropy GltfMaterials::anisotropyOf(const tinygltf::ExtensionMap& extensions) {
     Anisotropy result;
     const auto found = extensions.find("KHR_materials_anisotropy");
     if (found == extensions.end()) {
         return result;
     }
-    const auto& [name, anisotropy] = *found;
+    const tinygltf::Value& anisotropy = found->second;
     result.strength = floatOr(anisotropy, "anisotropyStrength", 0.0);
     result.rotation = floatOr(anisotropy, "anisotropyRotation", 0.0);
-    result.texture = slotOf(anisotropy, "anisotropyTexture", part + name);
+    result.texture = slotOf(anisotropy, "anisotropyTexture");
     return result;
 }
 
-Clearcoat GltfMaterials::clearcoatOf(const tinygltf::ExtensionMap& extensions, const std::string& part) {
+Iridescence GltfMaterials::iridescenceOf(const tinygltf::ExtensionMap& extensions) {
+    Iridescence result;
+    const auto found = extensions.find("KHR_materials_iridescence");
+    if (found == extensions.end()) {
+        return result;
+    }
+    const tinygltf::Value& film = found->second;
+    result.factor = floatOr(film, "iridescenceFactor", 0.0);
+    result.ior = floatOr(film, "iridescenceIor", result.ior);
+    result.thinnest = floatOr(film, "iridescenceThicknessMinimum", result.thinnest);
+    result.thickest = floatOr(film, "iridescenceThicknessMaximum", result.thickest);
+    result.texture = slotOf(film, "iridescenceTexture");
+    result.thicknessTexture = slotOf(film, "iridescenceThicknessTexture");
+    return result;
+}
+
+DiffuseTransmission GltfMaterials::diffuseTransmissionOf(const tinygltf::ExtensionMap& extensions) {
+    DiffuseTransmission result;
+    const auto found = extensions.find("KHR_materials_diffuse_transmission");
+    if (found == extensions.end()) {
+        return result;
+    }
+    const tinygltf::Value& transmission = found->second;
+    result.factor = floatOr(transmission, "diffuseTransmissionFactor", 0.0);
+    result.color = colorOr(transmission, "diffuseTransmissionColorFactor", result.color);
+    result.texture = slotOf(transmission, "diffuseTransmissionTexture");
+    result.colorTexture = slotOf(transmission, "diffuseTransmissionColorTexture");
+    return result;
+}
+
+Clearcoat GltfMaterials::clearcoatOf(const tinygltf::ExtensionMap& extensions) {
     Clearcoat result;
     const auto found = extensions.find("KHR_materials_clearcoat");
     if (found == extensions.end()) {
         return result;
     }
-    const auto& [name, coat] = *found;
+    const tinygltf::Value& coat = found->second;
     result.factor = floatOr(coat, "clearcoatFactor", 0.0);
     result.roughness = floatOr(coat, "clearcoatRoughnessFactor", 0.0);
-    result.texture = slotOf(coat, "clearcoatTexture", part + name);
-    result.roughnessTexture = slotOf(coat, "clearcoatRoughnessTexture", part + name);
-    result.normalTexture = slotOf(coat, "clearcoatNormalTexture", part + name);
+    result.texture = slotOf(coat, "clearcoatTexture");
+    result.roughnessTexture = slotOf(coat, "clearcoatRoughnessTexture");
+    result.normalTexture = slotOf(coat, "clearcoatNormalTexture");
     if (coat.Has("clearcoatNormalTexture")) {
         result.normalScale = floatOr(coat.Get("clearcoatNormalTexture"), "scale", 1.0);
     }

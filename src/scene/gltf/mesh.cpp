@@ -4,6 +4,7 @@
 #include "scene/gltf/morph.h"
 #include "scene/gltf/normals.h"
 #include "scene/gltf/primitive.h"
+#include "scene/thin_meshes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,15 +63,16 @@ glm::u16vec4 colorOf(vec4 value, const AccessorView& view) {
 }
 
 /// Leaves out the triangles whose corners are not all finite; their vertices stay, at the place of another one.
-void dropInvalidTriangles(Mesh& mesh, std::vector<uint32_t>& triangles, const std::string& part,
+void dropInvalidTriangles(Mesh& mesh, std::vector<uint32_t>& triangles, size_t corners, const std::string& part,
                           const GltfReport& report) {
     const auto isPlaced = [&](uint32_t v) { return isFinite(vec4(mesh.positions[v], 1.0F)); };
     size_t kept = 0;
-    for (size_t i = 0; i < triangles.size(); i += 3) {
+    for (size_t i = 0; i < triangles.size(); i += corners) {
         const auto corner = triangles.begin() + static_cast<std::ptrdiff_t>(i);
-        if (std::all_of(corner, corner + 3, isPlaced)) {
-            std::copy(corner, corner + 3, triangles.begin() + static_cast<std::ptrdiff_t>(kept));
-            kept += 3;
+        const auto end = corner + static_cast<std::ptrdiff_t>(corners);
+        if (std::all_of(corner, end, isPlaced)) {
+            std::copy(corner, end, triangles.begin() + static_cast<std::ptrdiff_t>(kept));
+            kept += corners;
         }
     }
     triangles.resize(kept);
@@ -104,32 +106,35 @@ void readPositions(Mesh& mesh, PrimitiveSource& source, const std::vector<uint32
         }
     });
     if (!isValid) {
-        dropInvalidTriangles(mesh, source.triangles, part, report);
+        dropInvalidTriangles(mesh, source.triangles, source.corners, part, report);
     }
 }
 
 /// Warns of attributes that are not finite; they are replaced later.
-void warnUnlessFinite(const vec4& value, const char* semantic, const std::string& part, GltfReport& report) {
+void warnUnlessFinite(const vec4& value, std::string_view semantic, const std::string& part, GltfReport& report) {
     if (!isFinite(value)) {
         report.warn(fmt::format("not finite {}", semantic), fmt::format("{}.attributes.{}", part, semantic),
                     "some vertices will be drawn with other values: theirs are not finite");
     }
 }
 
-void readUvs(Mesh& mesh, const AccessorView* view, vec2 VertexAttributes::*member, const std::vector<uint32_t>& used,
-             const std::string& part, GltfReport& report) {
+/// set: of the file.
+void readUvs(Mesh& mesh, const PrimitiveSource& source, uint32_t set, vec2 VertexAttributes::*member,
+             const std::vector<uint32_t>& used, const std::string& part, GltfReport& report) {
+    const std::string semantic = fmt::format("TEXCOORD_{}", set);
+    const AccessorView* view = source.find(semantic);
     for (size_t i = 0; view != nullptr && i < used.size(); ++i) {
         const vec4 uv = view->at(used[i]);
-        warnUnlessFinite(uv, member == &VertexAttributes::uv0 ? "TEXCOORD_0" : "TEXCOORD_1", part, report);
+        warnUnlessFinite(uv, semantic, part, report);
         mesh.attributes[i].*member = isFinite(uv) ? vec2(uv) : vec2(0.0F);
     }
 }
 
-void readAttributes(Mesh& mesh, const PrimitiveSource& source, const std::vector<uint32_t>& used,
-                    const std::string& part, GltfReport& report) {
+void readAttributes(Mesh& mesh, const PrimitiveSource& source, const std::array<uint32_t, 2>& uvSets,
+                    const std::vector<uint32_t>& used, const std::string& part, GltfReport& report) {
     mesh.attributes.resize(used.size());
-    readUvs(mesh, source.find("TEXCOORD_0"), &VertexAttributes::uv0, used, part, report);
-    readUvs(mesh, source.find("TEXCOORD_1"), &VertexAttributes::uv1, used, part, report);
+    readUvs(mesh, source, uvSets[0], &VertexAttributes::uv0, used, part, report);
+    readUvs(mesh, source, uvSets[1], &VertexAttributes::uv1, used, part, report);
     const AccessorView* normals = source.find("NORMAL");
     const AccessorView* tangents = source.find("TANGENT");
     const AccessorView* colors = source.find("COLOR_0");
@@ -153,25 +158,40 @@ void readAttributes(Mesh& mesh, const PrimitiveSource& source, const std::vector
 /// Normalizes the weights to a sum of 1; a vertex without weights follows the first joint.
 void readSkin(Mesh& mesh, const PrimitiveSource& source, const std::vector<uint32_t>& used, const std::string& part,
               GltfReport& report) {
-    const AccessorView* joints = source.find("JOINTS_0");
-    const AccessorView* weights = source.find("WEIGHTS_0");
-    if (joints == nullptr || weights == nullptr) {
+    std::vector<std::pair<const AccessorView*, const AccessorView*>> sets;  // of four joints each
+    for (int set = 0;; ++set) {
+        const AccessorView* joints = source.find(fmt::format("JOINTS_{}", set));
+        const AccessorView* weights = source.find(fmt::format("WEIGHTS_{}", set));
+        if (joints == nullptr || weights == nullptr) {
+            break;
+        }
+        sets.emplace_back(joints, weights);
+    }
+    if (sets.empty()) {
         return;
     }
+    report.charge(part, used.size() * sets.size() * 4 * sizeof(JointWeight));
+    std::vector<JointWeight> moved;
     for (const uint32_t v : used) {
-        const vec4 weight = glm::max(weights->at(v), 0.0F);
-        warnUnlessFinite(weights->at(v), "WEIGHTS_0", part, report);
-        const float sum = weight.x + weight.y + weight.z + weight.w;
-        VertexSkin& vertex = mesh.skin.emplace_back();
+        moved.clear();
+        float sum = 0.0F;
+        for (const auto& [joints, weights] : sets) {
+            const vec4 weight = glm::max(weights->at(v), 0.0F);
+            warnUnlessFinite(weights->at(v), "WEIGHTS", part, report);
+            for (int k = 0; k < 4; ++k) {
+                const float joint = joints->at(v)[k];  // a NaN becomes 0
+                moved.push_back({joint > 0.0F ? static_cast<uint32_t>(std::min(joint, 65535.0F)) : 0U, weight[k]});
+                sum += weight[k];
+            }
+        }
         if (!(sum > 0.0F) || !std::isfinite(sum)) {
-            continue;
+            moved.assign({JointWeight{}});
+            sum = 1.0F;
         }
-        vertex.weights = weight / sum;
-        for (int k = 0; k < 4; ++k) {
-            const float named = joints->at(v)[k];
-            const float joint = named > 0.0F ? std::min(named, 65535.0F) : 0.0F;  // a NaN becomes 0
-            vertex.joints[k] = vertex.weights[k] > 0.0F ? static_cast<uint16_t>(joint) : uint16_t(0);
+        for (JointWeight& m : moved) {
+            m.weight /= sum;
         }
+        mesh.addSkin(moved);
     }
 }
 
@@ -250,29 +270,30 @@ void GltfMeshes::loadPrimitive(size_t mesh, size_t primitive) {
     if (source.mode < 0) {
         return;  // a stand-in
     }
-    if (source.mode < TINYGLTF_MODE_TRIANGLES) {
-        report_.warn("points and lines", part + ".mode",
-                     "points and lines will not be drawn: only triangles are supported");
-        return;
-    }
     if (!source.attributes.contains("POSITION")) {
-        report_.warn("no position", part + ".attributes", "the primitive will not be drawn: it has no POSITION");
-        return;
-    }
-    if (source.attributes.contains("JOINTS_1")) {
-        report_.warn("joints", part + ".attributes.JOINTS_1",
-                     "vertices will follow their first four joints only: more are not supported");
+        report_.fail(part + ".attributes", "has no POSITION");
     }
     PrimitiveSource opened = openPrimitive(document_, source, part, report_);
     const std::vector<uint32_t> used = takeUsed(opened.triangles, opened.find("POSITION")->count);
     report_.charge(part, used.size() * vertexBytes + document_.model.meshes[mesh].name.size());
     Mesh result;
     result.name = document_.model.meshes[mesh].name;
-    result.material = materials_.use(materialOf(source, variant_));
+    const bool lit = opened.corners == 3 || opened.find("NORMAL") != nullptr;
+    result.material = materials_.use(materialOf(source, variant_), lit);
     readPositions(result, opened, used, part, report_);
-    readAttributes(result, opened, used, part, report_);
+    readAttributes(result, opened, materials_.uvSets(result.material), used, part, report_);
     readSkin(result, opened, used, part, report_);
     readGltfMorph(result, document_, source, opened, used, part, report_);
+    if (opened.corners < 3) {
+        report_.charge(part, opened.triangles.size() * 6 * vertexBytes);
+        makeThin(result, opened.triangles, opened.corners);
+        if (size_t broken = lit ? repairNormals(result) : 0; broken > 0) {
+            report_.warn("normals", part + ".attributes.NORMAL", "{} vertices will get other normals", broken);
+        }
+        meshes_[mesh].push_back(static_cast<uint32_t>(scene_.meshes.size()));
+        scene_.meshes.push_back(std::move(result));
+        return;
+    }
     result.indices = std::move(opened.triangles);
     completeFrames(result, opened, tangentTexture(scene_.materials[result.material]), part, report_);
     meshes_[mesh].push_back(static_cast<uint32_t>(scene_.meshes.size()));

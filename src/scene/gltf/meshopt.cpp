@@ -1,9 +1,13 @@
-// Decodes buffer views compressed with EXT_meshopt_compression, by meshoptimizer. Its decoders check untrusted data,
+// Decodes buffer views compressed with KHR_meshopt_compression or EXT_meshopt_compression, by meshoptimizer, but for
+// what only the first has. Its decoders check untrusted data,
 // but only assert what the extension demands of strides and counts, which is checked here.
 #include "scene/gltf/meshopt.h"
 
+#include "scene/gltf/meshopt_vertices.h"
+
 #include <meshoptimizer.h>
 
+#include <array>
 #include <span>
 
 namespace reflet {
@@ -12,7 +16,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* extensionName = "EXT_meshopt_compression";
+constexpr std::array<const char*, 2> extensionNames{"KHR_meshopt_compression", "EXT_meshopt_compression"};
 constexpr uint64_t maxRatio = 1024;  // the codecs reach 64
 constexpr uint64_t smallestBlock = 8192;
 
@@ -25,14 +29,18 @@ struct Compressed {
     std::span<const uint8_t> bytes;
 };
 
-/// nullptr: it has none.
-const json* extensionOf(const json& object) {
+/// The extension by either name; nullptr: it has none.
+const json* extensionOf(const json& object, const char** name = nullptr) {
     const auto extensions = object.find("extensions");
-    if (extensions == object.end()) {
-        return nullptr;
+    for (size_t i = 0; extensions != object.end() && i < extensionNames.size(); ++i) {
+        if (const auto found = extensions->find(extensionNames[i]); found != extensions->end()) {
+            if (name != nullptr) {
+                *name = extensionNames[i];
+            }
+            return &*found;
+        }
     }
-    const auto found = extensions->find(extensionName);
-    return found != extensions->end() ? &*found : nullptr;
+    return nullptr;
 }
 
 Compressed open(const json& extension, const tinygltf::Model& model, const std::string& part,
@@ -62,7 +70,8 @@ void check(const Compressed& view, uint64_t decodedBytes, const std::string& par
         report.fail(part + ".count", "is {}, not a multiple of 3", view.count);
     }
     const bool fits = view.filter == "NONE" || (attributes && view.filter == "EXPONENTIAL") ||
-                      (attributes && view.filter == "OCTAHEDRAL" && (view.stride == 4 || view.stride == 8)) ||
+                      (attributes && (view.filter == "OCTAHEDRAL" || view.filter == "COLOR") &&
+                       (view.stride == 4 || view.stride == 8)) ||
                       (attributes && view.filter == "QUATERNION" && view.stride == 8);
     if (!fits) {
         report.fail(part + ".filter", "is {}, which is not allowed for {} of {} bytes", view.filter, view.mode,
@@ -85,7 +94,11 @@ bool decode(const Compressed& view, std::vector<uint8_t>& to) {
         return meshopt_decodeIndexSequence(to.data(), view.count, view.stride, view.bytes.data(), view.bytes.size()) ==
                0;
     }
-    if (meshopt_decodeVertexBuffer(to.data(), view.count, view.stride, view.bytes.data(), view.bytes.size()) != 0) {
+    const bool decoded =
+        !view.bytes.empty() && view.bytes[0] == meshoptVertexHeader1
+            ? decodeMeshoptVertices(view.bytes, view.stride, view.count, to)
+            : meshopt_decodeVertexBuffer(to.data(), view.count, view.stride, view.bytes.data(), view.bytes.size()) == 0;
+    if (!decoded) {
         return false;
     }
     if (view.filter == "OCTAHEDRAL") {
@@ -94,6 +107,8 @@ bool decode(const Compressed& view, std::vector<uint8_t>& to) {
         meshopt_decodeFilterQuat(to.data(), view.count, view.stride);
     } else if (view.filter == "EXPONENTIAL") {
         meshopt_decodeFilterExp(to.data(), view.count, view.stride);
+    } else if (view.filter == "COLOR") {
+        decodeMeshoptColors(to, view.stride);
     }
     return true;
 }
@@ -107,12 +122,13 @@ bool isMeshoptFallback(const json& buffer) {
 
 void decodeMeshopt(const json& document, tinygltf::Model& model, GltfReport& report) {
     for (size_t i = 0; i < model.bufferViews.size(); ++i) {
-        const json* extension = extensionOf(document["bufferViews"][i]);
+        const char* name = nullptr;
+        const json* extension = extensionOf(document["bufferViews"][i], &name);
         if (extension == nullptr) {
             continue;
         }
         tinygltf::BufferView& view = model.bufferViews[i];
-        const std::string part = fmt::format("bufferViews[{}].extensions.{}", i, extensionName);
+        const std::string part = fmt::format("bufferViews[{}].extensions.{}", i, name);
         tinygltf::Buffer decoded;
         report.tolerateUntilUsed("bufferViews", i, [&] {
             const Compressed compressed = open(*extension, model, part, report);

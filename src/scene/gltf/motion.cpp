@@ -160,11 +160,9 @@ int32_t GltfMotion::skin(int index, uint32_t mesh, const std::string& part) cons
                      "the mesh will not be deformed: it has no JOINTS_0 and WEIGHTS_0");
         return -1;
     }
-    for (const VertexSkin& vertex : skinned.skin) {
-        for (int k = 0; k < 4; ++k) {
-            if (vertex.joints[k] >= joints) {
-                report_.fail(part + ".skin", "its mesh names joint {}, but there are {}", vertex.joints[k], joints);
-            }
+    for (const JointWeight& moved : skinned.jointWeights) {
+        if (moved.joint >= joints) {
+            report_.fail(part + ".skin", "its mesh names joint {}, but there are {}", moved.joint, joints);
         }
     }
     report_.charge(part, skinned.positions.size() * (2 * sizeof(vec3) + sizeof(VertexAttributes)));

@@ -81,14 +81,20 @@ Lamp placeLamp(const tinygltf::Light& source, const mat4& toWorld, const std::st
     return lamp;
 }
 
+/// KHR_node_visibility, of the node itself.
+bool isVisible(const tinygltf::Node& node) {
+    const auto found = node.extensions.find("KHR_node_visibility");
+    return found == node.extensions.end() || !found->second.Has("visible") || found->second.Get("visible").Get<bool>();
+}
+
 class NodePlacer {
 public:
     NodePlacer(const GltfDocument& document, GltfMeshes& meshes, const GltfMotion& motion, Scene& scene,
                GltfReport& report)
         : document_(document), meshes_(meshes), motion_(motion), scene_(scene), report_(report) {}
 
-    /// Returns the node's own object-to-world matrix.
-    glm::dmat4 place(int index, const glm::dmat4& parentToWorld) {
+    /// Returns the node's own object-to-world matrix. Of a node that is not visible, only cameras are placed.
+    glm::dmat4 place(int index, const glm::dmat4& parentToWorld, bool visible) {
         const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(index)];
         const std::string part = fmt::format("nodes[{}]", index);
         const glm::dmat4 exact = parentToWorld * localTransform(readGltfNode(node));
@@ -96,14 +102,14 @@ public:
         if (!isFinite(toWorld)) {
             report_.fail(part, "its transform to the world is not finite");
         }
-        if (node.mesh >= 0) {
+        if (node.mesh >= 0 && visible) {
             addCopies(index, exact, part);
         }
         if (node.camera >= 0) {
             report_.tolerate("the camera will be missing", [&] { addCamera(node.camera, index, exact); });
         }
         const auto light = node.extensions.find("KHR_lights_punctual");
-        if (light != node.extensions.end()) {
+        if (light != node.extensions.end() && visible) {
             const int which = light->second.Get("light").GetNumberAsInt();
             report_.tolerate("the lamp will be missing", [&] { addLight(which, index, exact); });
         }
@@ -231,22 +237,25 @@ void placeGltfNodes(const GltfDocument& document, const std::vector<int>& roots,
     struct Open {
         int node;
         glm::dmat4 parentToWorld;
+        bool visible;  ///< the parent
     };
     const GltfMotion motion(document, scene, report);
     NodePlacer placer(document, meshes, motion, scene, report);
     std::vector<Open> open;  // an explicit stack: a long chain of nodes would overflow the call stack
-    const auto push = [&](const std::vector<int>& nodes, const glm::dmat4& parentToWorld) {
+    const auto push = [&](const std::vector<int>& nodes, const glm::dmat4& parentToWorld, bool visible) {
         for (size_t i = nodes.size(); i-- > 0;) {  // in reverse, so that the first is popped first
-            open.push_back({nodes[i], parentToWorld});
+            open.push_back({nodes[i], parentToWorld, visible});
         }
     };
-    push(roots, glm::dmat4(1.0));
+    push(roots, glm::dmat4(1.0), true);
     while (!open.empty()) {
         const Open next = open.back();
         open.pop_back();
         report.tolerate("the node and those below it will not be drawn", [&] {
-            const glm::dmat4 toWorld = placer.place(next.node, next.parentToWorld);
-            push(document.model.nodes[static_cast<size_t>(next.node)].children, toWorld);
+            const tinygltf::Node& node = document.model.nodes[static_cast<size_t>(next.node)];
+            const bool visible = next.visible && isVisible(node);
+            const glm::dmat4 toWorld = placer.place(next.node, next.parentToWorld, visible);
+            push(node.children, toWorld, visible);
         });
     }
     placer.finish();

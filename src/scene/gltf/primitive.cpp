@@ -1,6 +1,8 @@
 // Gives access to the attributes and triangles of a glTF primitive, whether from accessors or from Draco.
 #include "scene/gltf/primitive.h"
 
+#include "scene/gltf/schema_tables.h"
+
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -10,19 +12,18 @@ namespace reflet {
 namespace {
 
 struct SemanticRule {
-    const char* semantic;
+    std::string_view semantic;  ///< with a trailing "_": of each of a set, as TEXCOORD_0, TEXCOORD_1
     int minComponents;
     int maxComponents;
     const char* without;  ///< consequence of leaving it out; null: the primitive cannot be drawn without it
 };
-constexpr std::array<SemanticRule, 8> semantics{{{"POSITION", 3, 3, nullptr},
+constexpr std::array<SemanticRule, 7> semantics{{{"POSITION", 3, 3, nullptr},
                                                  {"NORMAL", 3, 3, "the surface will be faceted"},
                                                  {"TANGENT", 4, 4, "the tangents will be computed"},
-                                                 {"TEXCOORD_0", 2, 2, "textures will have one colour"},
-                                                 {"TEXCOORD_1", 2, 2, "textures will have one colour"},
+                                                 {"TEXCOORD_", 2, 2, "textures will have one colour"},
                                                  {"COLOR_0", 3, 4, "vertex colours will be missing"},
-                                                 {"JOINTS_0", 4, 4, "the mesh will not be deformed"},
-                                                 {"WEIGHTS_0", 4, 4, "the mesh will not be deformed"}}};
+                                                 {"JOINTS_", 4, 4, "the mesh will not be deformed"},
+                                                 {"WEIGHTS_", 4, 4, "the mesh will not be deformed"}}};
 
 constexpr uint32_t noVertex = 0xFFFFFFFF;  // greater than any index
 
@@ -38,7 +39,7 @@ void checkType(const tinygltf::Accessor& accessor, const SemanticRule& rule, int
     const bool isJoint = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE ||
                          accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT;
     if (accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT ||
-        (std::string_view(rule.semantic) == "JOINTS_0" && !isJoint)) {
+        (rule.semantic.starts_with("JOINTS_") && !isJoint)) {
         report.fail(fmt::format("accessors[{}].componentType", index), "is {}, which is not allowed for {}",
                     accessor.componentType, rule.semantic);
     }
@@ -50,7 +51,7 @@ AccessorView openAttribute(const GltfDocument& document, const SemanticRule& rul
                            GltfReport& report) {
     report.use("accessors", static_cast<size_t>(accessor));
     checkType(document.model.accessors[static_cast<size_t>(accessor)], rule, accessor, report);
-    const auto decoded = draco.attributes.find(rule.semantic);
+    const auto decoded = draco.attributes.find(std::string(rule.semantic));
     AccessorView view = decoded != draco.attributes.end() ? decoded->second : viewAccessor(document, accessor, report);
     if (view.count != expected.value_or(view.count)) {
         report.fail(fmt::format("{}.attributes.{}", part, rule.semantic), "has {} vertices, but POSITION has {}",
@@ -63,21 +64,26 @@ std::map<std::string, AccessorView> openAttributes(const GltfDocument& document,
                                                    const DracoPrimitive& draco, const std::string& part,
                                                    GltfReport& report) {
     std::map<std::string, AccessorView> result;
-    for (const SemanticRule& rule : semantics) {
-        const auto found = primitive.attributes.find(rule.semantic);
-        if (found == primitive.attributes.end()) {
-            continue;
-        }
+    const auto openAs = [&](const SemanticRule& rule, int accessor) {
         const auto positions = result.find("POSITION");  // the first of the semantics
         const auto expected = positions != result.end() ? std::optional(positions->second.count) : std::nullopt;
         const auto open = [&] {
-            result.insert_or_assign(rule.semantic,
-                                    openAttribute(document, rule, found->second, draco, expected, part, report));
+            result.insert_or_assign(std::string(rule.semantic),
+                                    openAttribute(document, rule, accessor, draco, expected, part, report));
         };
         if (rule.without == nullptr) {
             open();
         } else {
             report.tolerate(rule.without, open);
+        }
+    };
+    for (const SemanticRule& rule : semantics) {
+        for (const auto& [name, accessor] : primitive.attributes) {
+            if (name == rule.semantic || gltf_schema::attributeSet(name, rule.semantic) >= 0) {
+                SemanticRule named = rule;
+                named.semantic = name;
+                openAs(named, accessor);
+            }
         }
     }
     return result;
@@ -172,6 +178,37 @@ std::vector<uint32_t> makeTriangles(int mode, const std::vector<uint32_t>* indic
     return result;
 }
 
+/// Points, or the two ends of each segment. Without `indices`: the vertices in order.
+std::vector<uint32_t> makeThinElements(int mode, const std::vector<uint32_t>* indices, uint32_t vertices,
+                                       const std::string& part, GltfReport& report) {
+    const uint32_t count = indices != nullptr ? static_cast<uint32_t>(indices->size()) : vertices;
+    report.charge(part, uint64_t(count) * 2 * sizeof(uint32_t));
+    const auto at = [&](uint32_t i) { return indices != nullptr ? (*indices)[i] : i; };
+    std::vector<uint32_t> result;
+    const auto addLine = [&](uint32_t a, uint32_t b) {
+        if (at(a) != noVertex && at(b) != noVertex) {
+            result.insert(result.end(), {at(a), at(b)});
+        }
+    };
+    const uint32_t step = mode == TINYGLTF_MODE_LINE ? 2 : 1;
+    for (uint32_t i = 0; mode == TINYGLTF_MODE_POINTS && i < count; ++i) {
+        if (at(i) != noVertex) {
+            result.push_back(at(i));
+        }
+    }
+    for (uint32_t i = 0; mode != TINYGLTF_MODE_POINTS && i + 1 < count; i += step) {
+        addLine(i, i + 1);
+    }
+    if (mode == TINYGLTF_MODE_LINE_LOOP && count > 2) {
+        addLine(count - 1, 0);
+    }
+    if (result.empty()) {
+        report.fail(part, "{} {} make no {}", count, indices != nullptr ? "indices" : "vertices",
+                    mode == TINYGLTF_MODE_POINTS ? "point" : "line");
+    }
+    return result;
+}
+
 }  // namespace
 
 PrimitiveSource openPrimitive(const GltfDocument& document, const tinygltf::Primitive& primitive,
@@ -192,11 +229,16 @@ PrimitiveSource openPrimitive(const GltfDocument& document, const tinygltf::Prim
                         source.draco.vertices);
         }
         source.triangles = std::move(source.draco.indices);
-    } else if (primitive.indices >= 0) {
-        const std::vector<uint32_t> indices = readIndices(document, primitive.indices, vertices, report);
-        source.triangles = makeTriangles(primitive.mode, &indices, vertices, part, report);
     } else {
-        source.triangles = makeTriangles(primitive.mode, nullptr, vertices, part, report);
+        std::vector<uint32_t> indices;
+        if (primitive.indices >= 0) {
+            indices = readIndices(document, primitive.indices, vertices, report);
+        }
+        const std::vector<uint32_t>* listed = primitive.indices >= 0 ? &indices : nullptr;
+        const bool thin = primitive.mode < TINYGLTF_MODE_TRIANGLES;
+        source.corners = !thin ? 3 : primitive.mode == TINYGLTF_MODE_POINTS ? 1 : 2;
+        source.triangles = thin ? makeThinElements(primitive.mode, listed, vertices, part, report)
+                                : makeTriangles(primitive.mode, listed, vertices, part, report);
     }
     return source;
 }

@@ -13,7 +13,8 @@ namespace reflet {
 /// their semantic allows.
 struct PrimitiveSource {
     std::map<std::string, AccessorView> attributes;
-    std::vector<uint32_t> triangles;  ///< three vertex indices each, in range
+    std::vector<uint32_t> triangles;  ///< `corners` vertex indices each, in range
+    size_t corners = 3;               ///< 1: points, 2: segments of lines
     DracoPrimitive draco;             ///< owns the data that attributes view
 
     [[nodiscard]] const AccessorView* find(const std::string& semantic) const {
@@ -22,7 +23,7 @@ struct PrimitiveSource {
     }
 };
 
-/// `part` is the JSON path of the primitive, which must draw triangles and have a POSITION. Throws Error.
+/// `part` is the JSON path of the primitive, which must have a POSITION. Throws Error.
 PrimitiveSource openPrimitive(const GltfDocument& document, const tinygltf::Primitive& primitive,
                               const std::string& part, GltfReport& report);
 

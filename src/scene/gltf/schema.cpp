@@ -244,13 +244,13 @@ private:
         for (const auto& entry : value.items()) {
             const std::string& name = entry.key();  // not structured bindings, which Clang 14 cannot capture
             const json& item = entry.value();
-            const Place inner{.parent = &place, .name = name.empty() ? "\"\"" : std::string_view(name)};
+            if (!gltf_schema::knownAttribute(name)) {
+                continue;
+            }
+            const Place inner{.parent = &place, .name = std::string_view(name)};
             const auto add = [&] {
-                json checked = field.refersTo != nullptr ? index(item, field.refersTo, inner)
+                result[name] = field.refersTo != nullptr ? index(item, field.refersTo, inner)
                                                          : integer(item, {.name = "", .max = 4294967295.0}, inner);
-                if (gltf_schema::knownAttribute(name)) {
-                    result[name] = std::move(checked);
-                }
             };
             if (field.without == nullptr || field.array || name == "POSITION") {
                 add();

@@ -2,6 +2,7 @@
 // specification, 2021, and of the extensions in knownExtensions.
 #include "scene/gltf/schema_tables.h"
 
+#include "scene/gltf/schema_materials.h"
 #include "scene/gltf/schema_values.h"
 
 #include <algorithm>
@@ -21,6 +22,7 @@ constexpr std::array meshoptBuffer{
 };
 constexpr std::array bufferExtensions{
     Field{.name = "EXT_meshopt_compression", .type = Type::object, .fields = meshoptBuffer},
+    Field{.name = "KHR_meshopt_compression", .type = Type::object, .fields = meshoptBuffer},
 };
 constexpr std::array buffer{
     Field{.name = "uri", .type = Type::text, .vital = true},
@@ -38,6 +40,7 @@ constexpr std::array meshopt{
 };
 constexpr std::array viewExtensions{
     Field{.name = "EXT_meshopt_compression", .type = Type::object, .fields = meshopt},
+    Field{.name = "KHR_meshopt_compression", .type = Type::object, .fields = meshopt},
 };
 constexpr std::array bufferView{
     Field{.name = "buffer", .type = Type::index, .required = true, .refersTo = "buffers"},
@@ -96,97 +99,6 @@ constexpr std::array texture{
     Field{.name = "extensions", .type = Type::object, .fields = textureFormats},
 };
 
-// Materials.
-constexpr std::array textureTransform{
-    Field{.name = "offset", .array = true, .items = 2},
-    Field{.name = "rotation"},
-    Field{.name = "scale", .array = true, .items = 2},
-    Field{.name = "texCoord", .type = Type::integer, .max = maxInt},
-};
-constexpr std::array textureExtensions{
-    Field{.name = "KHR_texture_transform", .type = Type::object, .fields = textureTransform},
-};
-constexpr std::array textureInfo{
-    Field{.name = "index", .type = Type::index, .required = true, .refersTo = "textures"},
-    Field{.name = "texCoord", .type = Type::integer, .max = maxInt},
-    Field{.name = "scale"},
-    Field{.name = "strength", .min = 0, .max = 1},
-    Field{.name = "extensions", .type = Type::object, .fields = textureExtensions},
-};
-constexpr std::array metallicRoughness{
-    Field{.name = "baseColorFactor", .array = true, .items = 4, .min = 0, .max = 1},
-    Field{.name = "baseColorTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
-    Field{.name = "metallicFactor", .min = 0, .max = 1},
-    Field{.name = "roughnessFactor", .min = 0, .max = 1},
-    Field{.name = "metallicRoughnessTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
-};
-constexpr std::array emissiveStrength{Field{.name = "emissiveStrength", .min = 0}};
-constexpr std::array ior{Field{.name = "ior", .min = 0}};
-constexpr std::array specular{
-    Field{.name = "specularFactor", .min = 0, .max = 1},
-    Field{.name = "specularTexture", .type = Type::object, .fields = textureInfo},
-    Field{.name = "specularColorFactor", .array = true, .items = 3, .min = 0},
-    Field{.name = "specularColorTexture", .type = Type::object, .fields = textureInfo},
-};
-constexpr std::array transmission{
-    Field{.name = "transmissionFactor", .min = 0, .max = 1},
-    Field{.name = "transmissionTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
-};
-constexpr std::array volume{
-    Field{.name = "thicknessFactor", .min = 0},
-    Field{.name = "thicknessTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
-    Field{.name = "attenuationDistance", .min = 0},
-    Field{.name = "attenuationColor", .array = true, .items = 3, .min = 0, .max = 1},
-};
-constexpr std::array clearcoat{
-    Field{.name = "clearcoatFactor", .min = 0, .max = 1},
-    Field{.name = "clearcoatTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
-    Field{.name = "clearcoatRoughnessFactor", .min = 0, .max = 1},
-    Field{.name = "clearcoatRoughnessTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
-    Field{.name = "clearcoatNormalTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
-};
-constexpr std::array sheen{
-    Field{.name = "sheenColorFactor", .array = true, .items = 3, .min = 0, .max = 1},
-    Field{.name = "sheenColorTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
-    Field{.name = "sheenRoughnessFactor", .min = 0, .max = 1},
-    Field{.name = "sheenRoughnessTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
-};
-constexpr std::array anisotropy{
-    Field{.name = "anisotropyStrength", .min = 0, .max = 1},
-    Field{.name = "anisotropyRotation"},
-    Field{.name = "anisotropyTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
-};
-constexpr std::array dispersion{Field{.name = "dispersion", .min = 0}};
-constexpr std::array<Field, 0> unlit{};
-constexpr std::array materialExtensions{
-    Field{.name = "KHR_materials_anisotropy", .type = Type::object, .fields = anisotropy},
-    Field{.name = "KHR_materials_clearcoat", .type = Type::object, .fields = clearcoat},
-    Field{.name = "KHR_materials_dispersion", .type = Type::object, .fields = dispersion},
-    Field{.name = "KHR_materials_emissive_strength", .type = Type::object, .fields = emissiveStrength},
-    Field{.name = "KHR_materials_ior", .type = Type::object, .fields = ior},
-    Field{.name = "KHR_materials_sheen", .type = Type::object, .fields = sheen},
-    Field{.name = "KHR_materials_specular", .type = Type::object, .fields = specular},
-    Field{.name = "KHR_materials_transmission", .type = Type::object, .fields = transmission},
-    Field{.name = "KHR_materials_unlit", .type = Type::object, .fields = unlit},
-    Field{.name = "KHR_materials_volume", .type = Type::object, .fields = volume},
-};
-constexpr std::array materialExtras{
-    Field{.name = "camera", .type = Type::text},  // Reflet's own: Material::camera
-};
-constexpr std::array material{
-    Field{.name = "name", .type = Type::text},
-    Field{.name = "pbrMetallicRoughness", .type = Type::object, .fields = metallicRoughness},
-    Field{.name = "normalTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
-    Field{.name = "occlusionTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
-    Field{.name = "emissiveTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
-    Field{.name = "emissiveFactor", .array = true, .items = 3, .min = 0, .max = 1},
-    Field{.name = "alphaMode", .type = Type::text, .words = alphaModes},
-    Field{.name = "alphaCutoff", .min = 0},
-    Field{.name = "doubleSided", .type = Type::boolean},
-    Field{.name = "extensions", .type = Type::object, .fields = materialExtensions},
-    Field{.name = "extras", .type = Type::object, .fields = materialExtras, .anyType = true},
-};
-
 // Meshes.
 constexpr std::array draco{
     Field{.name = "bufferView", .type = Type::index, .required = true, .refersTo = "bufferViews"},
@@ -234,9 +146,13 @@ constexpr std::array nodeLight{
 constexpr std::array instancing{
     Field{.name = "attributes", .type = Type::indexMap, .required = true, .refersTo = "accessors"},
 };
+constexpr std::array visibility{
+    Field{.name = "visible", .type = Type::boolean},
+};
 constexpr std::array nodeExtensions{
     Field{.name = "EXT_mesh_gpu_instancing", .type = Type::object, .fields = instancing},
     Field{.name = "KHR_lights_punctual", .type = Type::object, .fields = nodeLight, .without = noLamp},
+    Field{.name = "KHR_node_visibility", .type = Type::object, .fields = visibility},
 };
 constexpr std::array node{
     Field{.name = "name", .type = Type::text},
@@ -389,7 +305,24 @@ std::span<const Field> document() {
 }
 
 bool knownAttribute(std::string_view name) {
-    return std::find(attributes.begin(), attributes.end(), name) != attributes.end();
+    return std::find(attributes.begin(), attributes.end(), name) != attributes.end() ||
+           std::ranges::any_of(attributeSets, [&](std::string_view set) { return attributeSet(name, set) >= 0; });
+}
+
+int attributeSet(std::string_view name, std::string_view set) {
+    constexpr size_t mostDigits = 3;
+    if (!set.ends_with('_') || name.size() <= set.size() || !name.starts_with(set) ||
+        name.size() > set.size() + mostDigits) {
+        return -1;
+    }
+    int number = 0;
+    for (const char digit : name.substr(set.size())) {
+        if (digit < '0' || digit > '9') {
+            return -1;
+        }
+        number = 10 * number + (digit - '0');
+    }
+    return number;
 }
 
 }  // namespace reflet::gltf_schema

@@ -45,14 +45,56 @@ std::span<const Field> document();
 /// Whether the loader reads the attribute of this name, of vertices or of instances.
 bool knownAttribute(std::string_view name);
 
+/// The number of an attribute of which a vertex may have several: 2 of "TEXCOORD_2" with the set "TEXCOORD_". < 0: the
+/// attribute is none of that set.
+int attributeSet(std::string_view name, std::string_view set);
+
 constexpr auto knownExtensions = std::to_array<std::string_view>({
-    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",  "EXT_texture_webp",
-    "KHR_draco_mesh_compression", "KHR_lights_punctual",      "KHR_materials_anisotropy",
-    "KHR_materials_clearcoat",    "KHR_materials_dispersion", "KHR_materials_emissive_strength",
-    "KHR_materials_ior",          "KHR_materials_sheen",      "KHR_materials_specular",
-    "KHR_materials_transmission", "KHR_materials_unlit",      "KHR_materials_variants",
-    "KHR_materials_volume",       "KHR_mesh_quantization",    "KHR_texture_basisu",
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "EXT_texture_webp",
+    "KHR_draco_mesh_compression",
+    "KHR_lights_punctual",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
+    "KHR_node_visibility",
+    "KHR_meshopt_compression",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_iridescence",
+    "KHR_materials_diffuse_transmission",
+});
+
+/// Extensions that do not change the image: what they describe is not drawn, or they choose among equals.
+constexpr auto harmlessExtensions = std::to_array<std::string_view>({
+    "AGI_articulations",
+    "EXT_instance_features",
+    "EXT_mesh_features",
+    "EXT_mesh_manifold",
+    "EXT_structural_metadata",
+    "FB_ngon_encoding",
+    "KHR_audio",
+    "KHR_audio_emitter",
+    "KHR_interactivity",
+    "KHR_node_hoverability",
+    "KHR_node_selectability",
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
+    "MSFT_lod",
+    "MSFT_packing_normalRoughnessMetallic",
+    "MSFT_packing_occlusionRoughnessMetallic",
+    "MSFT_texture_dds",
 });
 
 }  // namespace reflet::gltf_schema

@@ -20,11 +20,11 @@ constexpr std::array<std::string_view, 7> accessorTypes{"SCALAR", "VEC2", "VEC3"
 constexpr std::array<std::string_view, 3> alphaModes{"OPAQUE", "MASK", "BLEND"};
 constexpr std::array<std::string_view, 2> cameraTypes{"perspective", "orthographic"};
 constexpr std::array<std::string_view, 3> lightTypes{"directional", "point", "spot"};
-constexpr std::array<std::string_view, 12> attributes{"POSITION",   "NORMAL",      "TANGENT",  "TEXCOORD_0",
-                                                      "TEXCOORD_1", "COLOR_0",     "JOINTS_0", "WEIGHTS_0",
-                                                      "JOINTS_1",   "TRANSLATION", "ROTATION", "SCALE"};
+constexpr std::array<std::string_view, 7> attributes{"POSITION",    "NORMAL",   "TANGENT", "COLOR_0",
+                                                     "TRANSLATION", "ROTATION", "SCALE"};
+constexpr std::array<std::string_view, 3> attributeSets{"TEXCOORD_", "JOINTS_", "WEIGHTS_"};  // with a number
 constexpr std::array<std::string_view, 3> meshoptModes{"ATTRIBUTES", "TRIANGLES", "INDICES"};
-constexpr std::array<std::string_view, 4> meshoptFilters{"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL"};
+constexpr std::array<std::string_view, 5> meshoptFilters{"NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL", "COLOR"};
 constexpr std::array<std::string_view, 3> interpolations{"STEP", "LINEAR", "CUBICSPLINE"};
 
 // Consequences of leaving out invalid values.

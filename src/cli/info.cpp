@@ -1,0 +1,183 @@
+// `reflet info`: what is in a scene, and what will not be drawn.
+#include "base/error.h"
+#include "base/json_text.h"
+#include "cli/commands.h"
+#include "scene/builtin.h"
+#include "scene/gltf/gltf.h"
+#include "scene/pose.h"
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <memory>
+#include <set>
+
+namespace reflet {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+struct InfoOptions {
+    std::string file;
+    bool json = false;
+};
+
+ordered_json numbers(const vec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+uint64_t trianglesOf(const Scene& scene, bool placed) {
+    uint64_t count = 0;
+    if (placed) {
+        for (const Instance& instance : scene.instances) {
+            count += scene.meshes[instance.mesh].indices.size() / 3;
+        }
+    } else {
+        for (const Mesh& mesh : scene.meshes) {
+            count += mesh.indices.size() / 3;
+        }
+    }
+    return count;
+}
+
+ordered_json countsOf(const Scene& scene) {
+    const auto countMaterials = [&](auto&& has) { return std::ranges::count_if(scene.materials, has); };
+    return {{"instances", scene.instances.size()},
+            {"meshes", scene.meshes.size()},
+            {"triangles", trianglesOf(scene, false)},
+            {"triangles_placed", trianglesOf(scene, true)},
+            {"materials", scene.materials.size()},
+            {"double_sided", countMaterials([](const Material& m) { return m.doubleSided; })},
+            {"blended", countMaterials([](const Material& m) { return m.blended; })},
+            {"transmissive", countMaterials([](const Material& m) { return m.transmission.factor > 0.0F; })},
+            {"unlit", countMaterials([](const Material& m) { return m.unlit; })},
+            {"emissive", countMaterials([](const Material& m) { return m.emissive != vec3(0.0F); })},
+            {"images", scene.images.size()},
+            {"skins", scene.skins.size()}};
+}
+
+ordered_json lampsOf(const Scene& scene) {
+    auto lamps = ordered_json::array();
+    if (scene.sun) {
+        lamps.push_back({{"name", ""}, {"type", "directional"}, {"intensity", numbers(scene.sun->irradiance)}});
+    }
+    for (const Lamp& lamp : scene.lamps) {
+        const char* type = lamp.type == Lamp::Type::point  ? "point"
+                           : lamp.type == Lamp::Type::spot ? "spot"
+                                                           : "directional";
+        lamps.push_back({{"name", lamp.name}, {"type", type}, {"intensity", numbers(lamp.intensity)}});
+    }
+    return lamps;
+}
+
+ordered_json camerasOf(const Scene& scene) {
+    auto cameras = ordered_json::array();
+    for (const Camera& camera : scene.cameras) {
+        cameras.push_back({{"name", camera.name},
+                           {"type", camera.orthographicHeight > 0.0F ? "orthographic" : "perspective"},
+                           {"position", numbers(camera.position)}});
+    }
+    return cameras;
+}
+
+ordered_json animationsOf(const Scene& scene) {
+    auto animations = ordered_json::array();
+    for (const Animation& animation : scene.animations) {
+        float seconds = 0.0F;
+        for (const Channel& channel : animation.channels) {
+            seconds = std::max(seconds, channel.times.back());
+        }
+        animations.push_back({{"name", animation.name}, {"seconds", seconds}, {"channels", animation.channels.size()}});
+    }
+    return animations;
+}
+
+ordered_json infoOf(const Scene& scene, const std::vector<std::string>& warnings) {
+    ordered_json info{{"name", scene.name}, {"extensions", scene.extensions}, {"counts", countsOf(scene)}};
+    const Aabb bounds = scene.bounds();
+    if (!bounds.empty()) {
+        info["bounds"] = {{"min", numbers(bounds.min)}, {"max", numbers(bounds.max)}};
+    }
+    info["lights"] = lampsOf(scene);
+    info["cameras"] = camerasOf(scene);
+    info["animations"] = animationsOf(scene);
+    info["variants"] = scene.variants;
+    info["not_drawn"] = warnings;
+    return info;
+}
+
+std::string nameOr(const ordered_json& named, const char* otherwise) {
+    const std::string name = named["name"];
+    return name.empty() ? otherwise : "'" + name + "'";
+}
+
+void printText(const Scene& scene, const ordered_json& info) {
+    const auto line = [](const char* what, const std::string& value) { fmt::print("{:<14} {}\n", what, value); };
+    line("scene", scene.name);
+    const std::vector<std::string>& extensions = scene.extensions;
+    line("extensions", extensions.empty() ? "none" : fmt::format("{}", fmt::join(extensions, ", ")));
+    std::vector<std::string> counts;
+    for (const auto& [name, value] : info["counts"].items()) {
+        std::string words = name;
+        std::ranges::replace(words, '_', ' ');
+        counts.push_back(fmt::format("{} {}", value.get<uint64_t>(), words));
+    }
+    line("counts", fmt::format("{}", fmt::join(counts, ", ")));
+    const Aabb bounds = scene.bounds();
+    if (!bounds.empty()) {
+        const vec3 size = bounds.size();
+        line("size", fmt::format("{:.4g} x {:.4g} x {:.4g} m", size.x, size.y, size.z));
+    }
+    for (const auto& lamp : info["lights"]) {
+        line("light", fmt::format("{}, {}", lamp["type"].get<std::string>(), nameOr(lamp, "without a name")));
+    }
+    for (const auto& camera : info["cameras"]) {
+        line("camera", fmt::format("{}, {}", nameOr(camera, "without a name"), camera["type"].get<std::string>()));
+    }
+    for (const auto& animation : info["animations"]) {
+        line("animation", fmt::format("{}, {:.4g} s, {} channels", nameOr(animation, "without a name"),
+                                      animation["seconds"].get<double>(), animation["channels"].get<uint64_t>()));
+    }
+    for (const std::string& variant : scene.variants) {
+        line("variant", variant);
+    }
+    for (const std::string warning : info["not_drawn"]) {
+        line("not drawn", warning);
+    }
+}
+
+Scene opened(const std::string& file, std::vector<std::string>& warnings) {
+    constexpr std::string_view builtin = "builtin:";
+    if (file.starts_with(builtin)) {
+        if (std::optional<Scene> scene = makeBuiltinScene(std::string_view(file).substr(builtin.size()))) {
+            return std::move(*scene);
+        }
+        failUsage("no built-in scene is called '{}' (see reflet list scenes)", file.substr(builtin.size()));
+    }
+    return loadGltf(file, {.variant = {}, .warn = [&](const std::string& text) { warnings.push_back(text); }});
+}
+
+void info(const InfoOptions& options) {
+    std::vector<std::string> warnings;
+    const Scene scene = opened(options.file, warnings);
+    const ordered_json all = infoOf(scene, warnings);
+    if (options.json) {
+        fmt::print("{}\n", jsonText(all, 2));
+    } else {
+        printText(scene, all);
+    }
+}
+
+}  // namespace
+
+void addInfoCommand(CLI::App& app) {
+    auto options = std::make_shared<InfoOptions>();
+    CLI::App* command = app.add_subcommand("info", "Show what is in a glTF file, and what of it will not be drawn");
+    command->add_option("SCENE", options->file, "A .gltf or .glb file, or builtin:NAME")->required();
+    command->add_flag("--json", options->json, "Print JSON");
+    command->callback([options] { info(*options); });
+}
+
+}  // namespace reflet

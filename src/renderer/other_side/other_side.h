@@ -1,0 +1,34 @@
+// Surfaces that transmit diffuse light (KHR_materials_diffuse_transmission). Shared by C++ and GLSL.
+//
+// What leaves a thin surface on the camera's side has arrived on the other one: those surfaces are a G-buffer of their
+// own, with normals that face away from the camera, lit by the same passes as other surfaces and added to their light.
+#ifndef REFLET_RENDERER_OTHER_SIDE_H
+#define REFLET_RENDERER_OTHER_SIDE_H
+
+#include "base/shared.h"
+
+SHARED_BEGIN
+
+struct OtherSideParams {
+    uvec2 size;
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "lighting/light.h"
+#include "renderer/trace_lobe.h"
+
+namespace reflet {
+
+/// Adds the light that the opaque surfaces of a view transmit; `light` itself if none does. seen: as for withCoats.
+LightLayers withOtherSide(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+                          const LightLayers& light);
+lighting::Light withOtherSide(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
+                              const lighting::Light& light);
+
+}  // namespace reflet
+#endif
+
+#endif
