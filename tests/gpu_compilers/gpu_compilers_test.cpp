@@ -122,7 +122,8 @@ TEST(GpuAssembly, LoopsAreFoundWithTheirInstructions) {
     const std::vector<Loop> loops = loopsOf(
         "BB0:\n\tv_mov_b32_e32 v0, 0 ; 7e000280\n\ts_load_dwordx4 s[0:3], s[4:5], 0x0\n"
         "BB1:\n\tv_add_f32_e32 v0, v0, v1\n"
-        "BB2:\n\timage_sample v1, v[0:1], s[0:7]\n\ts_waitcnt vmcnt(0)\n\tv_rcp_f32_e32 v1, v1\n\ts_cbranch_scc1 BB2\n"
+        "BB2:\n\timage_sample v1, v[0:1], s[0:7]\n\ts_waitcnt vmcnt(0)\n\tv_rcp_f32_e32 v1, v1\n\ts_cbranch_scc1 BB2   "
+        "; bf85fff0\n"
         "BB3:\n\ts_branch BB1\n"
         "BB4:\n\timage_store v0, v[2:3], s[0:7]\n\ts_endpgm\n");
     ASSERT_EQ(loops.size(), 3U);

@@ -36,6 +36,7 @@ std::vector<Block> blocksOf(std::string_view assembly) {
         std::string_view line = assembly.substr(0, end);
         assembly.remove_prefix(std::min(end + 1, assembly.size()));
         line = line.substr(0, line.find(';'));
+        line = line.substr(0, line.find_last_not_of(" \r") + 1);
         if (line.starts_with("BB") && contains(line, ":")) {
             blocks.push_back({line.substr(0, line.find(':')), {}});
         } else if (line.starts_with('\t') && !blocks.empty()) {

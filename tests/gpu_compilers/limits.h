@@ -13,7 +13,7 @@ namespace reflet::gpu_compilers {
 struct KernelCost {
     uint64_t vgprs = 0;         ///< vector registers, for each lane
     uint64_t sgprs = 0;         ///< scalar registers
-    uint64_t occupancy = 0;     ///< waves of 32 lanes that a SIMD unit holds at once
+    uint64_t occupancy = 0;     ///< waves that a SIMD unit holds at once, as the driver counts them
     uint64_t instructions = 0;  ///< in all
     uint64_t innerLoop = 0;     ///< instructions of the largest loop that holds no other
 };

@@ -15,30 +15,98 @@ shared uint numbers[meterSize];
 uint meterCount(uint i) { return numbers[i]; }
 #include "effects/exposure/meter.glsl"
 
+// Each lane has a few bins. Rows are sums of: surfaces, their light tones, the background, its light tones.
+const uint lanes = gl_WorkGroupSize.x;
+const uint laneBins = meterBins / lanes;
+const uint rows = 4u;
+shared uint counts[rows / 2u][lanes];
+shared float parts[rows][lanes];
+shared float means[rows];
+shared vec2 past[exposureFrames];  // weighted exposure, weight
+
+uint kindOf(uint row) { return row < 2u ? meterSurfaces : meterBackground; }
+float firstShare(uint row) { return row % 2u == 0u ? darkestShare : lightShare; }
+
+uint total(uint row) {
+    uint sum = 0u;
+    for (uint i = 0u; i < lanes; ++i) {
+        sum += counts[row / 2u][i];
+    }
+    return sum;
+}
+
 float weightOf(float age) {
     return params.adaptation > 0.0 ? exp(-age / params.adaptation) : 0.0;
 }
 
-void main() {
-    for (uint i = gl_LocalInvocationIndex; i < meterSize; i += gl_WorkGroupSize.x) {
+void loadHistogram(uint lane) {
+    for (uint i = lane; i < meterSize; i += lanes) {
         numbers[i] = histogram.numbers[i];
     }
     barrier();
-    if (gl_LocalInvocationIndex > 0u) {
+    for (uint row = 0u; row < rows; row += 2u) {
+        uint count = 0u;
+        for (uint i = 0u; i < laneBins; ++i) {
+            count += meterCount(kindOf(row) + lane * laneBins + i);
+        }
+        counts[row / 2u][lane] = count;
+    }
+    barrier();
+}
+
+// Each lane its part of the sums, then each of the first lanes a row. In this order on every device.
+void findMeans(uint lane) {
+    for (uint row = 0u; row < rows; ++row) {
+        uint before = 0u;
+        for (uint i = 0u; i < lane; ++i) {
+            before += counts[row / 2u][i];
+        }
+        float all = float(total(row));
+        parts[row][lane] = meterPart(kindOf(row), lane * laneBins, (lane + 1u) * laneBins, before,
+                                     firstShare(row) * all, brightestShare * all);
+    }
+    barrier();
+    if (lane < rows) {
+        float sum = 0.0;
+        for (uint i = 0u; i < lanes; ++i) {
+            sum += parts[lane][i];
+        }
+        float all = float(total(lane));
+        means[lane] = meterMean(sum, brightestShare * all - firstShare(lane) * all);
+    }
+}
+
+// The exposures that earlier frames asked for, one a lane, are a frame older.
+void agePast(uint lane) {
+    if (lane >= 1u && lane < exposureFrames) {
+        vec2 old = params.hasPrevious != 0u ? imageLoad(previous, ivec2(lane - 1u, 0)).rg : vec2(0.0, -1.0);
+        bool known = old.y >= 0.0;
+        old.y += known ? params.elapsed : 0.0;
+        float weight = known ? weightOf(old.y) : 0.0;
+        past[lane] = vec2(known ? old.x * weight : 0.0, weight);
+        imageStore(next, ivec2(lane, 0), vec4(old, 0.0, 0.0));
+    }
+}
+
+void main() {
+    uint lane = gl_LocalInvocationIndex;
+    loadHistogram(lane);
+    findMeans(lane);
+    agePast(lane);
+    barrier();
+    if (lane > 0u) {
         return;
     }
-    float own = meteredExposure() + params.preExposure;
+    uint surfaces = total(0u);
+    uint background = total(2u);
+    float own = exposureForAll(surfaces, exposureFor(surfaces, means[0], means[1]), background,
+                               exposureFor(background, means[2], means[3])) + params.preExposure;
     imageStore(next, ivec2(0), vec4(own, 0.0, 0.0, 0.0));
     float sum = own;
     float weights = 1.0;
-    for (int i = 1; i < int(exposureFrames); ++i) {
-        vec2 past = params.hasPrevious != 0u ? imageLoad(previous, ivec2(i - 1, 0)).rg : vec2(0.0, -1.0);
-        if (past.y >= 0.0) {
-            past.y += params.elapsed;
-            sum += past.x * weightOf(past.y);
-            weights += weightOf(past.y);
-        }
-        imageStore(next, ivec2(i, 0), vec4(past, 0.0, 0.0));
+    for (uint i = 1u; i < exposureFrames; ++i) {
+        sum += past[i].x;
+        weights += past[i].y;
     }
     imageStore(next, ivec2(exposureFrames, 0), vec4(sum / weights, 0.0, 0.0, 0.0));
 }

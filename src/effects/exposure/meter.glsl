@@ -27,22 +27,12 @@ int meterLevel(float luminance) {
     return min(int(stops * float(levelsPerStop) + 0.5f), int(meterBins * levelsPerBin) - 1);
 }
 
-// Number of pixels of a kind: meterSurfaces or meterBackground.
-uint meterTotal(uint kind) {
-    uint total = 0u;
-    for (uint i = 0u; i < meterBins; ++i) {
-        total += meterCount(kind + i);
-    }
-    return total;
-}
-
-// Mean log2 luminance of the pixels of a kind between two shares of them, sorted by luminance.
-float meterMean(uint kind, uint total, float from, float to) {
-    float first = from * float(total);
-    float last = to * float(total);
-    float below = 0.0f;
+// Sum of the levels of the pixels of a kind between two of them, sorted by luminance, that are in bins from `bin` to
+// `end`, exclusive. `before`: pixels in the bins before.
+float meterPart(uint kind, uint bin, uint end, uint before, float first, float last) {
+    float below = float(before);
     float sum = 0.0f;
-    for (uint i = 0u; i < meterBins; ++i) {
+    for (uint i = bin; i < end; ++i) {
         float count = float(meterCount(kind + i));
         float inside = min(below + count, last) - max(below, first);
         if (inside > 0.0f) {
@@ -51,28 +41,26 @@ float meterMean(uint kind, uint total, float from, float to) {
         }
         below += count;
     }
-    return sum / (last - first) + float(lowestStop);
+    return sum;
+}
+
+// Mean log2 luminance of `pixels` from the sum of their levels.
+float meterMean(float sum, float pixels) {
+    return sum / pixels + float(lowestStop);
 }
 
 // Stops that make the mean middle grey, unless light tones would become too light. 0 where all is black.
-float exposureFor(uint kind, uint total) {
-    if (total == 0u) {
-        return 0.0f;
-    }
-    return min(log2(middleGrey) - meterMean(kind, total, darkestShare, brightestShare),
-               log2(lightestGrey) - meterMean(kind, total, lightShare, brightestShare));
+float exposureFor(uint total, float mean, float lightMean) {
+    return total == 0u ? 0.0f : min(log2(middleGrey) - mean, log2(lightestGrey) - lightMean);
 }
 
-// Stops for the whole histogram.
-float meteredExposure() {
-    uint surfaces = meterTotal(meterSurfaces);
-    uint background = meterTotal(meterBackground);
-    float ofSurfaces = exposureFor(meterSurfaces, surfaces);
+// Stops for all, from those for surfaces and for the background, of which there are so many pixels.
+float exposureForAll(uint surfaces, float ofSurfaces, uint background, float ofBackground) {
     if (background == 0u) {
         return ofSurfaces;
     }
     float weight = min(float(surfaces) / (enoughSurface * float(surfaces + background)), 1.0f);
-    return mix(exposureFor(meterBackground, background), ofSurfaces, weight);
+    return mix(ofBackground, ofSurfaces, weight);
 }
 
 #endif

@@ -21,6 +21,23 @@ struct Meter {
 
     [[nodiscard]] uint32_t meterCount(uint32_t i) const { return numbers[i]; }
 #include "effects/exposure/meter.glsl"
+
+    [[nodiscard]] uint32_t total(uint32_t kind) const {
+        const auto first = numbers.begin() + kind;
+        return std::accumulate(first, first + meterBins, 0U);
+    }
+    [[nodiscard]] float mean(uint32_t kind, float from) {
+        const auto all = static_cast<float>(total(kind));
+        const float sum = meterPart(kind, 0, meterBins, 0, from * all, brightestShare * all);
+        return meterMean(sum, brightestShare * all - from * all);
+    }
+    [[nodiscard]] float exposure(uint32_t kind) {
+        return exposureFor(total(kind), mean(kind, darkestShare), mean(kind, lightShare));
+    }
+    [[nodiscard]] float exposure() {
+        return exposureForAll(total(meterSurfaces), exposure(meterSurfaces), total(meterBackground),
+                              exposure(meterBackground));
+    }
 };
 }  // namespace glsl
 
@@ -60,7 +77,7 @@ float meteredExposure(const FloatImage& radiance, const FloatImage& depth) {
             }
         }
     }
-    return meter.meteredExposure() + stops;
+    return meter.exposure() + stops;
 }
 
 }  // namespace reflet
