@@ -6,12 +6,12 @@
 #endif
 
 int main(int argc, char** argv) {
-    constexpr reflet::AddCommand commands[] = {reflet::addRenderCommand,
+    constexpr reflet::AddCommand commands[] = {
+        reflet::addRenderCommand,
 #ifdef REFLET_WINDOW
-                                               reflet::addViewCommand,
+        reflet::addViewCommand,
 #endif
-                                               reflet::addReferenceCommand, reflet::addDefocusCommand,
-                                               reflet::addCompareCommand,   reflet::addBenchCommand,
-                                               reflet::addReportCommand,    reflet::addListCommand};
+        reflet::addReferenceCommand, reflet::addDefocusCommand, reflet::addCompareCommand, reflet::addBenchCommand,
+        reflet::addReportCommand,    reflet::addQualifyCommand, reflet::addListCommand};
     return reflet::runProgram(argc, argv, commands);
 }
