@@ -12,6 +12,8 @@
 
 #include <cstdlib>
 
+#include <unistd.h>
+
 std::span<const reflet::gpu::Shader> effectShaders();
 
 namespace reflet::gpu_compilers {
@@ -146,8 +148,7 @@ TEST(GpuShaders, AreValidSpirV) {
         GTEST_SKIP() << "there is no spirv-val (Debian: spirv-tools)";
     }
     const std::filesystem::path folder =
-        std::filesystem::temp_directory_path() /
-        ("reflet-shaders-" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()));
+        std::filesystem::temp_directory_path() / ("reflet-shaders-" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder);
     for (const gpu::Shader& shader : effectShaders()) {
         const std::filesystem::path file = folder / std::string(shader.name);
