@@ -36,6 +36,7 @@ neededByTests=(
     "chromium: opens the pages that reflet report writes"
     "xvfb: a desktop for tests of the window"
     "xdotool: its mouse and keys"
+    "spirv-tools: checks compiled shaders"
     "vulkan-validationlayers: checks in tests that Vulkan is used as it wants to be"
 )
 

@@ -154,6 +154,7 @@ addShards fault_tests build/bin/fault_tests "${ofFaults-$filter}" 1
 addShards shader_tests build/bin/shader_tests "$filter" 1
 addShards reference_tests build/bin/reference_tests "$filter" 1
 addShards unit_tests build/bin/unit_tests "$filter" 1
+addShards gpu_compiler_tests build/bin/gpu_compiler_tests "$filter" 1
 
 for shard in "${shards[@]}"; do
     while (($(jobs -rp | wc -l) >= jobs)); do
@@ -169,7 +170,7 @@ for shard in "${shards[@]}"; do
     readShard "${words[0]}" "${words[3]}"
 done
 for name in cli_tests pass_tests pass_tests_tracing pass_tests_swiftshader pass_tests_ray_query library_tests \
-    fault_tests fault_tests_second_driver shader_tests shader_tests_swiftshader reference_tests unit_tests; do
+    fault_tests fault_tests_second_driver shader_tests shader_tests_swiftshader reference_tests unit_tests gpu_compiler_tests; do
     [[ -z "${seconds[$name]-}" ]] || echo "$name: ${good[$name]} passed, ${bad[$name]} failed, ${seconds[$name]} s of one core"
 done
 # The sanitized build of the fuzz targets takes minutes, and so do they.

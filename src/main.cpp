@@ -12,6 +12,6 @@ int main(int argc, char** argv) {
         reflet::addViewCommand,
 #endif
         reflet::addReferenceCommand, reflet::addDefocusCommand, reflet::addCompareCommand, reflet::addBenchCommand,
-        reflet::addReportCommand,    reflet::addListCommand,    reflet::addInfoCommand};
+        reflet::addReportCommand,    reflet::addQualifyCommand, reflet::addListCommand,    reflet::addInfoCommand};
     return reflet::runProgram(argc, argv, commands);
 }

@@ -13,6 +13,7 @@ void addCompareCommand(CLI::App& app);
 void addDefocusCommand(CLI::App& app);
 void addReportCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
+void addQualifyCommand(CLI::App& app);
 void addListCommand(CLI::App& app);
 void addInfoCommand(CLI::App& app);
 

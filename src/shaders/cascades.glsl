@@ -12,12 +12,18 @@ struct Cascade {
 // distance: metres in front of the camera. Points beyond the end of the last cascade use the last one.
 Cascade selectCascade(float distance, SunShadowParams sun) {
     uint i = 0u;
-    while (i + 1u < sun.count && distance >= sun.ends[i]) {
-        ++i;
+    float end = sun.ends[0];
+    float blend = sun.blends[0];
+    for (uint k = 1u; k < maxCascades; ++k) {  // constant indices: by others compilers would copy the arrays to memory
+        if (i + 1u == k && k < sun.count && distance >= end) {
+            i = k;
+            end = sun.ends[k];
+            blend = sun.blends[k];
+        }
     }
     float next = 0.0;
-    if (i + 1u < sun.count && distance > sun.blends[i]) {
-        next = (distance - sun.blends[i]) / (sun.ends[i] - sun.blends[i]);
+    if (i + 1u < sun.count && distance > blend) {
+        next = (distance - blend) / (end - blend);
     }
     return Cascade(i, next);
 }

@@ -18,6 +18,7 @@ const float brightestShare = 0.9f;
 // Highlights keep their drawing: so many pixels of surfaces may be lighter than this, as far as a stop less is enough.
 const float lightestHighlight = 3.0f;
 const float highlightShare = 0.99f;
+const float highlightMargin = 0.5f * (1.0f - highlightShare);
 // The mean of a background that fills this share of the pixels is at most this, so that the sky behind black things is
 // not burnt. With a smaller share, as of a window, it may be lighter by so many stops.
 const float lightestBackground = 0.6f;
@@ -36,22 +37,12 @@ int meterLevel(float luminance) {
     return min(int(stops * float(levelsPerStop) + 0.5f), int(meterBins * levelsPerBin) - 1);
 }
 
-// Number of pixels of a kind: meterSurfaces or meterBackground.
-uint meterTotal(uint kind) {
-    uint total = 0u;
-    for (uint i = 0u; i < meterBins; ++i) {
-        total += meterCount(kind + i);
-    }
-    return total;
-}
-
-// Mean log2 luminance of the pixels of a kind between two shares of them, sorted by luminance.
-float meterMean(uint kind, uint total, float from, float to) {
-    float first = from * float(total);
-    float last = to * float(total);
-    float below = 0.0f;
+// Sum of the levels of the pixels of a kind between two of them, sorted by luminance, that are in bins from `bin` to
+// `end`, exclusive. `before`: pixels in the bins before.
+float meterPart(uint kind, uint bin, uint end, uint before, float first, float last) {
+    float below = float(before);
     float sum = 0.0f;
-    for (uint i = 0u; i < meterBins; ++i) {
+    for (uint i = bin; i < end; ++i) {
         float count = float(meterCount(kind + i));
         float inside = min(below + count, last) - max(below, first);
         if (inside > 0.0f) {
@@ -60,35 +51,45 @@ float meterMean(uint kind, uint total, float from, float to) {
         }
         below += count;
     }
-    return sum / (last - first) + float(lowestStop);
+    return sum;
 }
 
-// Stops that make the mean middle grey, unless light tones would become too light. 0 where all is black.
-float exposureFor(uint kind, uint total) {
+// Mean log2 luminance of `pixels` from the sum of their levels.
+float meterMean(float sum, float pixels) {
+    return sum / pixels + float(lowestStop);
+}
+
+// Means of a kind: of all of its tones, of the light ones, and about the share of the highlights.
+const uint meterMeans = 3u;
+
+float firstShare(uint mean) {
+    return mean == 0u ? darkestShare : mean == 1u ? lightShare : highlightShare - highlightMargin;
+}
+
+float lastShare(uint mean) {
+    return mean < 2u ? brightestShare : highlightShare + highlightMargin;
+}
+
+// Stops that make the mean middle grey, unless light tones or highlights would become too light. 0 where all is black.
+float exposureFor(uint total, float mean, float lightMean, float highlights) {
     if (total == 0u) {
         return 0.0f;
     }
-    float ofTones = min(log2(middleGrey) - meterMean(kind, total, darkestShare, brightestShare),
-                        log2(lightestGrey) - meterMean(kind, total, lightShare, brightestShare));
-    float margin = 0.5f * (1.0f - highlightShare);
-    float highlights = meterMean(kind, total, highlightShare - margin, highlightShare + margin);
+    float ofTones = min(log2(middleGrey) - mean, log2(lightestGrey) - lightMean);
     return min(ofTones, max(log2(lightestHighlight) - highlights, ofTones - 1.0f));
 }
 
-// Stops for the whole histogram.
-float meteredExposure() {
-    uint surfaces = meterTotal(meterSurfaces);
-    uint background = meterTotal(meterBackground);
-    float ofSurfaces = exposureFor(meterSurfaces, surfaces);
+// Stops for all, from those for surfaces and for the background, of which there are so many pixels. backgroundMean: of
+// its tones.
+float exposureForAll(uint surfaces, float ofSurfaces, uint background, float ofBackground, float backgroundMean) {
     if (background == 0u) {
         return ofSurfaces;
     }
     float all = float(surfaces + background);
     float slack = windowStops * (1.0f - smoothstep(windowShare, backgroundShare, float(background) / all));
-    float seen = meterMean(meterBackground, background, darkestShare, brightestShare);
-    float limit = log2(lightestBackground) - seen + slack;
+    float limit = log2(lightestBackground) - backgroundMean + slack;
     float weight = min(float(surfaces) / (enoughSurface * all), 1.0f);
-    return mix(exposureFor(meterBackground, background), min(ofSurfaces, limit), weight);
+    return mix(ofBackground, min(ofSurfaces, limit), weight);
 }
 
 #endif

@@ -21,6 +21,23 @@ struct Meter {
 
     [[nodiscard]] uint32_t meterCount(uint32_t i) const { return numbers[i]; }
 #include "effects/exposure/meter.glsl"
+
+    [[nodiscard]] uint32_t total(uint32_t kind) const {
+        const auto first = numbers.begin() + kind;
+        return std::accumulate(first, first + meterBins, 0U);
+    }
+    [[nodiscard]] float mean(uint32_t kind, uint32_t which) {
+        const auto all = static_cast<float>(total(kind));
+        const float sum = meterPart(kind, 0, meterBins, 0, firstShare(which) * all, lastShare(which) * all);
+        return meterMean(sum, lastShare(which) * all - firstShare(which) * all);
+    }
+    [[nodiscard]] float exposure(uint32_t kind) {
+        return exposureFor(total(kind), mean(kind, 0), mean(kind, 1), mean(kind, 2));
+    }
+    [[nodiscard]] float exposure() {
+        return exposureForAll(total(meterSurfaces), exposure(meterSurfaces), total(meterBackground),
+                              exposure(meterBackground), mean(meterBackground, 0));
+    }
 };
 }  // namespace glsl
 
@@ -60,7 +77,7 @@ float meteredExposure(const FloatImage& radiance, const FloatImage& depth) {
             }
         }
     }
-    return meter.meteredExposure() + stops;
+    return meter.exposure() + stops;
 }
 
 }  // namespace reflet
