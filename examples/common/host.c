@@ -1,6 +1,5 @@
 #include "host.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,171 +22,6 @@ void check(VkResult result, const char* what) {
         fprintf(stderr, "%s failed: VkResult %d\n", what, result);
         exit(1);
     }
-}
-
-/* ---- matrices: column-major, element (row, column) is m[4 * column + row] ---- */
-
-static void multiply(float* out, const float* a, const float* b) {
-    for (int c = 0; c < 4; ++c) {
-        for (int r = 0; r < 4; ++r) {
-            float sum = 0.0F;
-            for (int k = 0; k < 4; ++k) sum += a[4 * k + r] * b[4 * c + k];
-            out[4 * c + r] = sum;
-        }
-    }
-}
-
-static void normalize3(float* v) {
-    const float length = sqrtf(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    for (int i = 0; i < 3; ++i) v[i] /= length;
-}
-
-static void cross3(float* out, const float* a, const float* b) {
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
-/* Right-handed: the camera looks along -Z of view space. */
-static void look_at(float* m, const float* eye, const float* target) {
-    float z[3] = {eye[0] - target[0], eye[1] - target[1], eye[2] - target[2]};
-    const float up[3] = {0.0F, 1.0F, 0.0F};
-    float x[3], y[3];
-    normalize3(z);
-    cross3(x, up, z);
-    normalize3(x);
-    cross3(y, z, x);
-    for (int i = 0; i < 3; ++i) {
-        m[4 * i] = x[i];
-        m[4 * i + 1] = y[i];
-        m[4 * i + 2] = z[i];
-        m[4 * i + 3] = 0.0F;
-    }
-    m[12] = -(x[0] * eye[0] + x[1] * eye[1] + x[2] * eye[2]);
-    m[13] = -(y[0] * eye[0] + y[1] * eye[1] + y[2] * eye[2]);
-    m[14] = -(z[0] * eye[0] + z[1] * eye[1] + z[2] * eye[2]);
-    m[15] = 1.0F;
-}
-
-/* Standard depth, 0 at the near plane; y down in clip space. */
-static void perspective(float* m, float tangent, float aspect, float near, float far) {
-    memset(m, 0, 16 * sizeof(float));
-    m[0] = 1.0F / (tangent * aspect);
-    m[5] = -1.0F / tangent;
-    m[10] = far / (near - far);
-    m[11] = -1.0F;
-    m[14] = near * far / (near - far);
-}
-
-static void orthographic(float* m, float half, float near, float far) {
-    memset(m, 0, 16 * sizeof(float));
-    m[0] = 1.0F / half;
-    m[5] = -1.0F / half;
-    m[10] = 1.0F / (near - far);
-    m[14] = near / (near - far);
-    m[15] = 1.0F;
-}
-
-void host_camera(Host* h, Camera* c, const Camera* before, const float jitter[2], float angle) {
-    const float eye[3] = {6.2F * sinf(angle), 2.2F, 6.2F * cosf(angle)};
-    const float target[3] = {0.0F, 0.9F, 0.0F};
-    look_at(c->world_to_view, eye, target);
-    perspective(h->view_to_clip, 0.45F, (float)h->width / (float)h->height, 0.1F, 50.0F);
-    multiply(c->world_to_clip_plain, h->view_to_clip, c->world_to_view);
-    float jittered[16];
-    memcpy(jittered, h->view_to_clip, sizeof jittered);
-    for (int i = 0; i < 4; ++i) { /* x += shift * w */
-        jittered[4 * i] -= 2.0F * jitter[0] / (float)h->width * h->view_to_clip[4 * i + 3];
-        jittered[4 * i + 1] -= 2.0F * jitter[1] / (float)h->height * h->view_to_clip[4 * i + 3];
-    }
-    multiply(c->world_to_clip, jittered, c->world_to_view);
-    const bool still = before != NULL && memcmp(c->world_to_view, before->world_to_view, sizeof c->world_to_view) == 0;
-    h->rest = still ? h->rest + 1 : 0;
-    memcpy(c->previous_world_to_clip, before != NULL ? before->world_to_clip_plain : c->world_to_clip_plain,
-           sizeof c->world_to_clip);
-    float to_sun[3] = {0.45F, 1.0F, 0.55F};
-    normalize3(to_sun);
-    const float from[3] = {10.0F * to_sun[0], 10.0F * to_sun[1], 10.0F * to_sun[2]};
-    const float center[3] = {0.0F, 0.0F, 0.0F};
-    float sun_view[16], sun_clip[16];
-    look_at(sun_view, from, center);
-    orthographic(sun_clip, 5.5F, 1.0F, 20.0F);
-    multiply(c->world_to_sun, sun_clip, sun_view);
-    memcpy(c->to_sun, to_sun, sizeof to_sun);
-    const float sky[4] = {0.35F, 0.45F, 0.6F, 0.0F};
-    memcpy(c->sky, sky, sizeof sky);
-}
-
-/* ---- images and buffers ---- */
-
-static uint32_t memory_type(Host* h, uint32_t allowed, VkMemoryPropertyFlags wanted) {
-    VkPhysicalDeviceMemoryProperties known;
-    vkGetPhysicalDeviceMemoryProperties(h->physical, &known);
-    for (uint32_t i = 0; i < known.memoryTypeCount; ++i) {
-        if ((allowed >> i & 1U) != 0 && (known.memoryTypes[i].propertyFlags & wanted) == wanted) return i;
-    }
-    fprintf(stderr, "no memory type\n");
-    exit(1);
-}
-
-static VkImageAspectFlags aspect_of(VkFormat format) {
-    return format == VK_FORMAT_D32_SFLOAT ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
-}
-
-static VkImageView view_of(Host* h, const Picture* p) {
-    const VkImageViewCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO, .image = p->image,
-        .viewType = VK_IMAGE_VIEW_TYPE_2D, .format = p->format, .subresourceRange = {aspect_of(p->format), 0, 1, p->layer, 1}};
-    VkImageView view;
-    check(vkCreateImageView(h->device, &info, NULL, &view), "vkCreateImageView");
-    return view;
-}
-
-Picture make_layers(Host* h, uint32_t width, uint32_t height, VkFormat format, VkImageUsageFlags usage, uint32_t layers) {
-    Picture p = {.format = format, .width = width, .height = height, .usage = usage, .layers = layers};
-    const VkImageCreateInfo info = {.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO, .imageType = VK_IMAGE_TYPE_2D,
-        .format = format, .extent = {width, height, 1}, .mipLevels = 1, .arrayLayers = layers,
-        .samples = VK_SAMPLE_COUNT_1_BIT, .usage = usage};
-    check(vkCreateImage(h->device, &info, NULL, &p.image), "vkCreateImage");
-    VkMemoryRequirements needs;
-    vkGetImageMemoryRequirements(h->device, p.image, &needs);
-    const VkMemoryAllocateInfo memory = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = needs.size,
-        .memoryTypeIndex = memory_type(h, needs.memoryTypeBits, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT)};
-    check(vkAllocateMemory(h->device, &memory, NULL, &p.memory), "vkAllocateMemory");
-    check(vkBindImageMemory(h->device, p.image, p.memory, 0), "vkBindImageMemory");
-    p.view = view_of(h, &p);
-    return p;
-}
-
-Picture make_picture(Host* h, uint32_t width, uint32_t height, VkFormat format, VkImageUsageFlags usage) {
-    return make_layers(h, width, height, format, usage, 1);
-}
-
-Picture layer_of(Host* h, const Picture* p, uint32_t layer) {
-    Picture one = *p;
-    one.layer = layer;
-    one.memory = VK_NULL_HANDLE;
-    one.view = view_of(h, &one);
-    return one;
-}
-
-void free_picture(Host* h, Picture* p) {
-    vkDestroyImageView(h->device, p->view, NULL);
-    if (p->memory != VK_NULL_HANDLE) { /* else it is a layer of another one */
-        vkDestroyImage(h->device, p->image, NULL);
-        vkFreeMemory(h->device, p->memory, NULL);
-    }
-    *p = (Picture){0};
-}
-
-VkDeviceMemory bind_buffer(Host* h, VkBuffer buffer, VkMemoryPropertyFlags properties) {
-    VkMemoryRequirements needs;
-    vkGetBufferMemoryRequirements(h->device, buffer, &needs);
-    const VkMemoryAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = needs.size,
-        .memoryTypeIndex = memory_type(h, needs.memoryTypeBits, properties)};
-    VkDeviceMemory memory;
-    check(vkAllocateMemory(h->device, &info, NULL, &memory), "vkAllocateMemory");
-    check(vkBindBufferMemory(h->device, buffer, memory, 0), "vkBindBufferMemory");
-    return memory;
 }
 
 void host_make_targets(Host* h, uint32_t width, uint32_t height) {
@@ -395,28 +229,6 @@ void host_close(Host* h) {
 
 /* ---- a frame ---- */
 
-static void layer_barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, uint32_t layer, VkImageLayout from,
-                          VkImageLayout to, VkPipelineStageFlags2 source, VkAccessFlags2 written, VkPipelineStageFlags2 target,
-                          VkAccessFlags2 access) {
-    const VkImageMemoryBarrier2 one = {.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2, .srcStageMask = source,
-        .srcAccessMask = written, .dstStageMask = target, .dstAccessMask = access, .oldLayout = from, .newLayout = to,
-        .srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED, .dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED, .image = image,
-        .subresourceRange = {aspect, 0, 1, layer, 1}};
-    const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .imageMemoryBarrierCount = 1,
-        .pImageMemoryBarriers = &one};
-    vkCmdPipelineBarrier2(commands, &info);
-}
-
-void barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, VkImageLayout from, VkImageLayout to,
-             VkPipelineStageFlags2 source, VkAccessFlags2 written, VkPipelineStageFlags2 target, VkAccessFlags2 access) {
-    layer_barrier(commands, image, aspect, 0, from, to, source, written, target, access);
-}
-
-void picture_barrier(VkCommandBuffer commands, const Picture* p, VkImageLayout from, VkImageLayout to, VkPipelineStageFlags2 source,
-                     VkAccessFlags2 written, VkPipelineStageFlags2 target, VkAccessFlags2 access) {
-    layer_barrier(commands, p->image, aspect_of(p->format), p->layer, from, to, source, written, target, access);
-}
-
 Slot* host_begin(Host* h) {
     Slot* slot = &h->slots[h->frame++ % FRAMES_IN_FLIGHT];
     check(vkWaitForFences(h->device, 1, &slot->fence, VK_TRUE, UINT64_MAX), "vkWaitForFences");
@@ -509,41 +321,4 @@ void host_submit(Host* h, Slot* slot) {
     const VkSubmitInfo submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1,
         .pCommandBuffers = &slot->commands};
     check(vkQueueSubmit(h->queue, 1, &submit, slot->fence), "vkQueueSubmit");
-}
-
-Download make_download(Host* h, uint32_t width, uint32_t height) {
-    Download d = {.width = width, .height = height};
-    const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = 4 * (VkDeviceSize)width * height,
-        .usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT};
-    check(vkCreateBuffer(h->device, &info, NULL, &d.buffer), "vkCreateBuffer");
-    d.memory = bind_buffer(h, d.buffer, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
-    return d;
-}
-
-void record_download(const Download* d, VkCommandBuffer commands, VkImage image, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
-    barrier(commands, image, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_GENERAL, VK_IMAGE_LAYOUT_GENERAL, stages, access,
-            VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
-    const VkBufferImageCopy copy = {.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1}, .imageExtent = {d->width, d->height, 1}};
-    vkCmdCopyImageToBuffer(commands, image, VK_IMAGE_LAYOUT_GENERAL, d->buffer, 1, &copy);
-    const VkMemoryBarrier2 for_host = {.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2, .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
-        .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT, .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
-        .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-    const VkDependencyInfo info = {.sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &for_host};
-    vkCmdPipelineBarrier2(commands, &info);
-}
-
-void write_download(Host* h, Download* d, const char* path) {
-    void* pixels;
-    check(vkMapMemory(h->device, d->memory, 0, VK_WHOLE_SIZE, 0, &pixels), "vkMapMemory");
-    FILE* file = fopen(path, "wb");
-    if (file == NULL) {
-        fprintf(stderr, "%s: cannot be written\n", path);
-        exit(1);
-    }
-    fprintf(file, "P6\n%u %u\n255\n", d->width, d->height);
-    for (uint32_t i = 0; i < d->width * d->height; ++i) fwrite((const uint8_t*)pixels + 4 * (size_t)i, 1, 3, file);
-    fclose(file);
-    vkDestroyBuffer(h->device, d->buffer, NULL);
-    vkFreeMemory(h->device, d->memory, NULL);
-    fprintf(stderr, "written: %s\n", path);
 }

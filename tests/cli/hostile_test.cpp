@@ -132,15 +132,6 @@ TEST_F(Hostile, AListOfNamesFromAFileIsShort) {
     EXPECT_TRUE(refused(compared, failed, {"channel0, ", "and 480 more"}));
 }
 
-// A triangle, and more.
-std::string triangleAnd(const std::string& more) {
-    return R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
-        "bufferViews": [{"buffer": 0, "byteLength": 36}], "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3,
-        "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
-        "scenes": [{"nodes": [0]}], )" +
-           more + "}";
-}
-
 TEST_F(Hostile, NamesOfFilesDoNotCommandTheTerminal) {
     write("c1.gltf", triangleAnd(R"("nodes": [{"mesh": 0, "camera": 0, "name": "\u009b31m\u202e\u2028"}], "cameras": [{
         "type": "perspective", "perspective": {"yfov": 1, "znear": 1}, "name": "\u009b31m\u202e\u2028"}])"));

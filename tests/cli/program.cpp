@@ -295,4 +295,12 @@ float mean(const FloatImage& image) {
     return static_cast<float>(sum / static_cast<double>(image.data.size()));
 }
 
+std::string triangleAnd(const std::string& more) {
+    return R"({"asset": {"version": "2.0"}, "buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],
+        "bufferViews": [{"buffer": 0, "byteLength": 36}], "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3,
+        "type": "VEC3", "min": [0, 0, 0], "max": [1, 1, 0]}], "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+        "scenes": [{"nodes": [0]}], )" +
+           more + "}";
+}
+
 }  // namespace reflet

@@ -95,4 +95,7 @@ std::vector<std::string> firstWords(const std::string& text);
 /// Mean of all values of all channels.
 float mean(const FloatImage& image);
 
+/// A glTF file with a triangle as its only mesh, and more properties of the document, such as "nodes".
+std::string triangleAnd(const std::string& more);
+
 }  // namespace reflet

@@ -78,7 +78,7 @@ TEST_F(ViewEnd, NeitherDoesASignalAndUnderTheValidationLayers) {
 
 TEST_F(ViewEnd, ASceneThatDoesNotOpenKeepsItsSavedState) {
     const Arguments view{"view", "scene.gltf", "--size", "64x64", "--window-picture", "w.png", "--preset", "direct"};
-    write("scene.gltf", R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{}]})");
+    write("scene.gltf", triangleAnd(R"("nodes": [{"mesh": 0}])"));
     Arguments changed = view;
     changed.insert(changed.end(), {"--set", "tonemap.exposure=1.25"});
     EXPECT_EQ(run(changed, environment()).status, 0);
