@@ -92,7 +92,7 @@ REFLET_API const char* refletLastError(void);
 typedef struct RefletMemoryCallbacks {
     size_t structSize; /**< required */
     void* user;        /**< passed on */
-    /** Allocates as vkAllocateMemory would; must be thread-safe if contexts are used by several threads. */
+    /** Allocates as vkAllocateMemory would; must be thread-safe if views are used by several threads. */
     VkResult (*allocate)(void* user, const VkMemoryAllocateInfo* info, VkDeviceMemory* memory);
     void (*free)(void* user, VkDeviceMemory memory); /**< what `allocate` gave */
 } RefletMemoryCallbacks;
@@ -116,7 +116,7 @@ typedef struct RefletContextInfo {
     /** Extensions that were enabled, of instance and device. Used: VK_EXT_debug_utils, for names and labels. */
     const char* const* enabledExtensions;
     uint32_t enabledExtensionCount;      /**< of enabledExtensions */
-    const RefletMemoryCallbacks* memory; /**< copied; NULL: none */
+    const RefletMemoryCallbacks* memory; /**< copied; NULL: vkAllocateMemory */
     /** Of host memory of Vulkan objects; copied. NULL: the driver's own. */
     const VkAllocationCallbacks* allocator;
     /**
@@ -239,7 +239,7 @@ REFLET_API void refletDestroyView(RefletView view);
 REFLET_API RefletResult refletResizeView(RefletView view, uint32_t width, uint32_t height);
 /**
  * Temporal upscaling: from the next frame on, refletTemporal makes pictures of this size, at least the frame's to each
- * side, from frames of the view's size or of RefletFrameInfo::renderSize. The host draws with mip bias log2(view's
+ * side, from frames of the view's size or of RefletFrameInfo::renderSize. The host draws with mip bias log2(frame's
  * height / output's height) and the jitter of refletJitter, in pixels of the frame; what follows refletTemporal has the
  * output's size. A half to each side is the useful limit. 0, 0: the view's size.
  */
@@ -277,7 +277,7 @@ typedef struct RefletImage {
     /**
      * Pixels from the left and from the top to the rectangle that is read or written, which has the size of the frame,
      * or of the output where that is asked for. Not 0, 0: width and height may be larger than it. Must be 0, 0 in
-     * images that are read as a whole: shadow maps, environments, exposures.
+     * images that are read as a whole: shadow maps (lamps: `tiles`), environments, probes, planar views, exposures.
      */
     uint32_t offset[2];
     uint32_t reserved[4]; /**< 0 */
@@ -427,9 +427,10 @@ typedef struct RefletFrameInfo {
     uint32_t renderSize[2];
     /**
      * Pre-exposure: the factor by which the host has multiplied all radiance of this frame, so that half floats hold
-     * it: `light`, `color`, `noisy`, answers to rays. Results are multiplied by it, too. May be another one in every
-     * frame: what the library remembers follows. RefletEnvironment is given without it, and tone maps take it away
-     * before they expose. 1e-8 to 1e8; 0: 1.
+     * it: `light`, `color`, `noisy`, answers to rays, `specularFallback`, `irradiance`, colours of planar views.
+     * Results are multiplied by it, too. May be another one in every frame: what the library remembers follows.
+     * RefletEnvironment and RefletProbe are given without it, and tone maps take it away before they expose. 1e-8 to
+     * 1e8; 0: 1.
      */
     float preExposure;
 } RefletFrameInfo;
@@ -486,7 +487,8 @@ typedef struct RefletSunShadow {
     uint32_t clipYUp;          /**< as in RefletFrameInfo, of the maps */
     /** Required: 1: `map` is a 2D image; 2 to 4: a 2D array view of as many layers, from near to far. */
     uint32_t cascades;
-    float worldToClip[4][16]; /**< required: of each cascade */
+    float worldToClip[4][16]; /**< required, of each cascade: world to clip space, orthographic, depth 0 to 1 as
+                                 `depthKind` says */
     /** Far end of each cascade: metres in front of the camera. With one map: not read. */
     float cascadeSplits[4];
     float toSun[3]; /**< required: world space; need not have length 1 */
@@ -528,7 +530,7 @@ typedef struct RefletLampShadow {
     float radius;           /**< metres, of the disk that shines: penumbras of PCSS follow from it. 0: sharp shadows */
     float range;            /**< metres beyond which it lights nothing, and its visibility is 0. 0: infinite */
     float direction[3];     /**< of a spot: where it shines, world space, of any length. All 0: a point light */
-    float coneAngle;        /**< of a spot: radians from `direction`, beyond which it is dark; above 0 to pi / 2 */
+    float coneAngle;        /**< of a spot: radians from `direction`, beyond which it is dark; above 0, below pi / 2 */
     RefletLampMapKind kind; /**< of `map` */
     RefletImage map;        /**< required: depth as in RefletSunShadow::map, or colour with distances */
     RefletLampDepth depth;  /**< what `map` holds */
@@ -549,8 +551,8 @@ typedef struct RefletLampShadow {
  * Visibility of lamps, RGBA8 of the frame's size, a 2D array view with a layer per four lamps, (count + 3) / 4: lamp i
  * is channel i % 4 of layer i / 4; 1: lit; 0 also on what faces away from the lamp, and beyond its range or cone. By
  * `shadow.filter`: hard, pcf or pcss, with `shadow.samples`; refletTemporal averages the noise. Maps of any size may
- * go together. In each frame the last call's result counts. lamps: an array of `count`, at most
- * REFLET_MAX_LAMP_SHADOWS. What is thinner than a texel: refletContactShadows.
+ * go together. Call it once per frame: another call's result takes the place of this one. lamps: an array of `count`,
+ * at most REFLET_MAX_LAMP_SHADOWS. What is thinner than a texel: refletContactShadows.
  */
 REFLET_API RefletResult refletLampShadows(RefletView view, RefletSettings settings, const RefletLampShadow* lamps,
                                           uint32_t count, RefletImage* visibility);
@@ -583,7 +585,8 @@ typedef struct RefletEnvironment {
      * Absent: `factor` is the radiance from everywhere.
      */
     RefletImage image;
-    float factor[3]; /**< times the image; all 0 and no image: black. With an image, all 0 stands for 1 */
+    float factor[3]; /**< times the image, 0 to 65504 / preExposure; all 0 and no image: black. With an image, all 0
+                        stands for 1 */
     float rotation;  /**< around `worldUp`, in radians */
     /**
      * World space; all 0 stands for +Y. Another one is the image with +Y up, turned by the shortest way that takes +Y
@@ -627,7 +630,7 @@ typedef struct RefletProbe {
     RefletParallax parallax; /**< how far the surroundings are */
     float parallaxCenter[3]; /**< of the box that stands for the surroundings */
     float parallaxHalfExtents[3]; /**< metres; all 0: the parallax box is the box */
-    RefletImage radiance;         /**< required: cube map of radiance, in the unit of RefletIndirectLight::light */
+    RefletImage radiance;         /**< required: cube map of radiance, without pre-exposure */
     /**
      * 0, 1: `radiance` has one level and is not filtered: the library prefilters it. More: its view has as many levels
      * from `baseLevel`, level l filtered by the GGX lobe of perceptual roughness l / (levels - 1).
@@ -636,7 +639,8 @@ typedef struct RefletProbe {
     /** 1: `radiance` is multiplied by its alpha: 1 surface, 0 sky, which the environment answers. 0: all is known. */
     uint32_t alphaIsCoverage;
     RefletImage distance;   /**< cube map, red: metres from `position`; 0, infinity: sky; for REFLET_PARALLAX_DEPTH */
-    RefletImage irradiance; /**< cube map by the surface's normal; absent: `sphericalHarmonics`, or from `radiance` */
+    RefletImage irradiance; /**< cube map by the surface's normal, without pre-exposure; absent: `sphericalHarmonics`,
+                               or from `radiance` */
     RefletIrradianceKind irradianceKind; /**< of `irradiance` and `sphericalHarmonics` */
     /**
      * Irradiance as 9 colours, 27 floats: factors of the real basis 0.282095, 0.488603 (y, z, x), 1.092548 (xy, yz),
@@ -675,9 +679,9 @@ typedef struct RefletIndirectLight {
     RefletImage light;
     const RefletEnvironment* environment; /**< what rays find that hit nothing; NULL: black */
     /*
-     * Light of the host's own, asked in this order where the screen does not answer, each for what is left of a ray:
-     * the image of its lobe, then the probes, then the environment. Rays that are known to hit nothing (answers of
-     * refletMissedRays with a negative distance) get the environment alone.
+     * Light of the host's own, asked in this order, each for what is left of a ray: planar views (reflections only;
+     * before or after the screen), answers of refletMissedRays, the image of the lobe, the probes, the environment.
+     * Rays that are known to hit nothing (answers with a negative distance) get the environment alone.
      */
     /** Of reflections: RGB: radiance that arrives along the pixel's lobe; alpha: confidence, 0 to 1. Frame's size. */
     RefletImage specularFallback;
@@ -693,7 +697,7 @@ typedef struct RefletIndirectLight {
 
 /** One lobe of indirect light. */
 typedef struct RefletLobe {
-    size_t structSize; /**< set by the host, too */
+    size_t structSize; /**< required */
     /**
      * RGBA16F: incoming radiance, weighted by the lobe (diffuse: irradiance / pi), without the surface's reflectance;
      * alpha: mean distance of what was hit, in metres. At traced resolution: (size + downsample - 1) / downsample.
@@ -745,7 +749,7 @@ REFLET_API RefletResult refletDenoise(RefletView view, RefletSettings settings, 
 
 /** Results of refletComposite, at full resolution. */
 typedef struct RefletComposite {
-    size_t structSize; /**< set by the host, too */
+    size_t structSize; /**< required */
     RefletImage lit;   /**< RGBA16F: light + both below; alpha: distance in front of the camera in metres, 0: sky */
     RefletImage indirectDiffuse;  /**< RGBA16F: what refletDiffuseGi adds to each pixel, upsampled and reflected */
     RefletImage indirectSpecular; /**< RGBA16F: the same of refletReflections */
@@ -777,8 +781,8 @@ typedef struct RefletLens {
 /**
  * Depth of field, RGBA16F of the output's size: near and far blur at half resolution by the settings `dof` (Jimenez,
  * 2014; Abadie, 2018), before the tone map. What is in focus does not change. color: linear radiance, of the output's
- * size; NULL: the last of refletTemporal and refletComposite that ran. Without an aperture, or with `dof.enabled` 0:
- * that picture.
+ * size; NULL: the last of refletTemporal and refletComposite that ran. Without an aperture, or with
+ * `dof.enabled=false`: that picture.
  */
 REFLET_API RefletResult refletDepthOfField(RefletView view, RefletSettings settings, const RefletLens* lens,
                                            const RefletImage* color, RefletImage* blurred);
@@ -813,8 +817,9 @@ typedef struct RefletToneMapInfo {
      */
     const RefletImage* exposure;
     /**
-     * The host's image, which is written: of the output's size at least, with VK_IMAGE_USAGE_STORAGE_BIT, of a format
-     * of `format`. `layout` may be VK_IMAGE_LAYOUT_UNDEFINED: its content is lost, and it is left in
+     * The host's image, which is written: at least of the size of the picture (the output's; the frame's if neither
+     * refletTemporal nor refletDepthOfField ran and no color is given), with VK_IMAGE_USAGE_STORAGE_BIT, of a format of
+     * `format`. `layout` may be VK_IMAGE_LAYOUT_UNDEFINED: its content is lost, and it is left in
      * VK_IMAGE_LAYOUT_GENERAL; another is restored. `stages`: that used it last. NULL: an image of the library's.
      */
     const RefletImage* output;
@@ -838,7 +843,7 @@ typedef struct RefletToneMapInfo {
 
 /** Results of refletToneMapTo. */
 typedef struct RefletDisplay {
-    size_t structSize; /**< set by the host, too */
+    size_t structSize; /**< required */
     RefletImage image; /**< for the display; with RefletToneMapInfo::output that, as it was left; alpha 1 */
     /**
      * 1x1, R32_SFLOAT: the factor on radiance without pre-exposure, of autoExposure: what the host may pre-expose the
@@ -853,7 +858,8 @@ REFLET_API RefletResult refletToneMapTo(RefletView view, RefletSettings settings
 
 /* ------------------------------------------------------------------------------------------------ missed rays --- */
 /*
- * Between the screen and the environment a host can answer rays by its own means: ray tracing, distance fields, probes.
+ * Between the screen and the other sources (RefletIndirectLight) a host can answer rays by its own means, such as ray
+ * tracing or distance fields.
  * refletMissedRays takes the place of refletDiffuseGi or refletReflections and stops behind the screen; the host
  * records commands that read `rays` and write `answers`; refletAnswerRays goes on as the effect would have.
  */
@@ -877,7 +883,8 @@ typedef struct RefletMissedRayHeader {
 
 /**
  * A ray that the screen did not answer, or not with certainty. 48 bytes, the same in GLSL's scalar and std430 layouts:
- * struct MissedRay { vec3 origin; float clear; vec3 direction; float rest; uint pixel, number; float spread, rough; };
+ * struct MissedRay { vec3 origin; float clear; vec3 direction; float rest; uint pixel, number; float spread, roughness;
+ * };
  */
 typedef struct RefletMissedRay {
     /** World space, metres: the surface, moved along its geometric normal by what rounding of a 32-bit float depth
@@ -907,11 +914,12 @@ typedef struct RefletMissedRay {
 typedef struct RefletRayAnswer {
     /** That arrives along the ray, in the unit of RefletIndirectLight::light. What is not finite is no answer. */
     float radiance[3];
-    /** 0 to 1: the share of `rest` that it answers. The environment answers the rest of it. */
+    /** 0 to 1: the share of `rest` that it answers. The image of the lobe, probes and the environment answer the rest.
+     */
     float confidence;
     /**
-     * Metres to what was hit, 0 or more. Negative: nothing is there, and the environment answers the whole ray without
-     * the guess that it makes for rays that pass behind a surface (`environment.occluded_weight`).
+     * Metres to what was hit, 0 or more. Negative: nothing is there, and the environment alone answers the whole ray,
+     * without the guess that it makes for rays that pass behind a surface (`environment.occluded_weight`).
      */
     float distance;
     uint32_t reserved[3]; /**< 0 */
@@ -919,7 +927,7 @@ typedef struct RefletRayAnswer {
 
 /** Result of refletMissedRays; its buffers are the host's until refletAnswerRays, and the library's from there on. */
 typedef struct RefletMissedRays {
-    size_t structSize;    /**< set by the host, too */
+    size_t structSize;    /**< required */
     RefletBuffer rays;    /**< RefletMissedRayHeader, then RefletMissedRay of each; the host reads it */
     RefletBuffer answers; /**< RefletRayAnswer of each ray, in their order, zero; the host writes it */
     uint32_t capacity;    /**< the most rays, for which both have room: traced pixels times rays for each */
@@ -946,9 +954,9 @@ typedef struct RefletRayAnswers {
 } RefletRayAnswers;
 
 /**
- * Goes on with the rays of refletMissedRays: the host's answers, the environment for the rest, and denoising, with the
- * settings that refletMissedRays was given, whatever has changed since. kind: as it was given. The result is that of
- * refletDiffuseGi or refletReflections, and refletComposite takes it. Confidence counts rays that the host answered.
+ * Goes on with the rays of refletMissedRays: the host's answers, the other sources for the rest, and denoising, with
+ * the settings that refletMissedRays was given, whatever has changed since. kind: as it was given. The result is that
+ * of refletDiffuseGi or refletReflections, and refletComposite takes it. Confidence counts rays that the host answered.
  */
 REFLET_API RefletResult refletAnswerRays(RefletView view, RefletSettings settings, RefletLobeKind kind,
                                          const RefletRayAnswers* answers, RefletLobe* lobe);
@@ -957,7 +965,7 @@ REFLET_API RefletResult refletAnswerRays(RefletView view, RefletSettings setting
 
 typedef enum RefletEffect {
     REFLET_EFFECT_SUN_SHADOW = 1 << 0,
-    REFLET_EFFECT_CONTACT_SHADOWS = 1 << 1,
+    REFLET_EFFECT_CONTACT_SHADOWS = 1 << 1, /**< refletContactShadows, and RefletSunShadow::contactShadows */
     REFLET_EFFECT_DIFFUSE_GI = 1 << 2,
     REFLET_EFFECT_REFLECTIONS = 1 << 3,
     REFLET_EFFECT_DENOISE = 1 << 4,
@@ -1025,8 +1033,8 @@ REFLET_API RefletResult refletPassTimes(RefletView view, uint32_t* count, Reflet
 
 /**
  * An intermediate image of the current frame: depth, normal, geometric_normal, base_color, material, motion, pyramid,
- * light, sun_visibility, lamp_visibility, ambient_occlusion, exposure, diffuse, specular, diffuse_confidence,
- * specular_confidence. The error lists what there is.
+ * light, sun_visibility, lamp_visibility, ambient_occlusion, exposure, circle_of_confusion, diffuse, specular,
+ * diffuse_confidence, specular_confidence. The error lists what there is.
  */
 REFLET_API RefletResult refletFindImage(RefletView view, const char* name, RefletImage* image);
 

@@ -237,9 +237,6 @@ gpu::Image HostImages::add(const RefletImage& image, uvec2 size, uint32_t layers
     if (image.image == VK_NULL_HANDLE) {
         return {};
     }
-    if (image.image == VK_NULL_HANDLE) {
-        return {};
-    }
     // One image may be given for several fields: it gets one barrier.
     const auto known = std::ranges::find_if(images_, [&](const Given& i) {
         return i.image.image == image.image && i.image.baseLayer == image.baseLayer &&
@@ -257,7 +254,7 @@ gpu::Image HostImages::add(const RefletImage& image, uvec2 size, uint32_t layers
 }
 
 gpu::Image HostImages::addOutput(const RefletImage& image, uvec2 size) {
-    images_.push_back({image, 1, true});
+    images_.push_back({.image = image, .layers = 1, .levels = 1, .written = true});
     return adopt(image, size, VK_IMAGE_LAYOUT_GENERAL);
 }
 

@@ -85,9 +85,11 @@ TEST_F(ReferenceSequence, SharesAndResumedRunsGiveTheSameBytes) {
     orbitIn("shares");
     expectEqualFrames("shares", "whole");
     EXPECT_EQ(read("shares/a_##.exr.sequence.json"), read("whole/a_##.exr.sequence.json"));
-    write("shares/a_02.exr", "mine");
+    write("shares/a_02.exr", read("whole/a_03.exr"));  // a picture of the user's own
+    write("shares/a_03.exr", "not whole");
     orbitIn("shares");
-    EXPECT_EQ(read("shares/a_02.exr"), "mine");
+    EXPECT_EQ(read("shares/a_02.exr"), read("whole/a_03.exr"));
+    EXPECT_EQ(read("shares/a_03.exr"), read("whole/a_03.exr"));
     orbitIn("shares", {"--overwrite"});
     expectEqualFrames("shares", "whole");
 }
