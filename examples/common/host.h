@@ -64,7 +64,8 @@ void host_open(Host* h, const char* const* instance_extensions, uint32_t instanc
                const char* const* device_extensions, uint32_t device_extension_count);
 void host_make_targets(Host* h, uint32_t width, uint32_t height);
 void host_free_targets(Host* h);
-/* Another host of the same device, with pictures, command buffers and cameras of its own: a second eye. Closed before the first. */
+/* Another host of the same device, with pictures, command buffers and cameras of its own: a second eye. Closed before
+ * the first. */
 void host_open_beside(Host* h, const Host* first);
 void host_close_beside(Host* h);
 /* Room and sun are drawn in render passes that are compatible with these. */
@@ -72,7 +73,8 @@ void host_use_render_passes(Host* h, VkRenderPass room, VkRenderPass sun);
 void host_close(Host* h);
 Picture make_picture(Host* h, uint32_t width, uint32_t height, VkFormat format, VkImageUsageFlags usage);
 /* An image of several layers, as its first one; and another layer of it, of which only the view is its own. */
-Picture make_layers(Host* h, uint32_t width, uint32_t height, VkFormat format, VkImageUsageFlags usage, uint32_t layers);
+Picture make_layers(Host* h, uint32_t width, uint32_t height, VkFormat format, VkImageUsageFlags usage,
+                    uint32_t layers);
 Picture layer_of(Host* h, const Picture* p, uint32_t layer);
 void free_picture(Host* h, Picture* p);
 VkDeviceMemory bind_buffer(Host* h, VkBuffer buffer, VkMemoryPropertyFlags properties);
@@ -105,8 +107,9 @@ void record_download(const Download* d, VkCommandBuffer commands, VkImage image,
 void write_download(Host* h, Download* d, const char* path);
 
 /* Of a picture's layer. */
-void picture_barrier(VkCommandBuffer commands, const Picture* p, VkImageLayout from, VkImageLayout to, VkPipelineStageFlags2 source,
-                     VkAccessFlags2 written, VkPipelineStageFlags2 target, VkAccessFlags2 access);
+void picture_barrier(VkCommandBuffer commands, const Picture* p, VkImageLayout from, VkImageLayout to,
+                     VkPipelineStageFlags2 source, VkAccessFlags2 written, VkPipelineStageFlags2 target,
+                     VkAccessFlags2 access);
 void barrier(VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect, VkImageLayout from, VkImageLayout to,
              VkPipelineStageFlags2 source, VkAccessFlags2 written, VkPipelineStageFlags2 target, VkAccessFlags2 access);
 

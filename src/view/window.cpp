@@ -110,7 +110,8 @@ Window::Window(const std::string& title, uvec2 size) {
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
     size = withinScreen(size);
-    window_ = glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), visibleText(title).c_str(), nullptr, nullptr);
+    window_ = glfwCreateWindow(static_cast<int>(size.x), static_cast<int>(size.y), visibleText(title).c_str(), nullptr,
+                               nullptr);
     if (window_ == nullptr) {
         glfwTerminate();
         fail("no window can be opened ({}); `reflet render` needs none", lastGlfwError());

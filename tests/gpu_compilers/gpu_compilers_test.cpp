@@ -109,11 +109,11 @@ TEST_F(GpuCompilers, FramesHaveThePassesOfTheirPresets) {
     for (const char* preset : {"fast", "balanced", "quality"}) {
         EXPECT_TRUE(has(preset, "dof_gather.comp")) << preset;
         EXPECT_TRUE(has(preset, "denoise_gather.comp")) << preset;
-        EXPECT_TRUE(has(preset, "shadow_visibility.comp")) << preset;
+        EXPECT_TRUE(has(preset, "shadow_visibility_host.comp")) << preset;
     }
     EXPECT_TRUE(has("balanced", "trace_screen.comp"));
     EXPECT_TRUE(has("quality", "trace_at_once.comp"));
-    EXPECT_TRUE(has("options", "import_shadow_array.comp"));
+    EXPECT_TRUE(has("options", "shadow_visibility_layers.comp"));
     EXPECT_TRUE(has("options", "finish_ao.comp"));
 }
 

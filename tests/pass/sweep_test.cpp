@@ -262,18 +262,24 @@ TEST_P(SweepOfGroup, EverySettingIsSoundAtItsEndsAndRead) {
         }
         const Context& context = contextOf(entry.name);
         std::vector<Images> seen;
+        const auto differs = [&] {
+            return std::ranges::any_of(seen, [&](const Images& images) {
+                return !std::ranges::equal(images, seen.front(), [](const auto& a, const auto& b) {
+                    return a.first == b.first && a.second.data == b.second.data;
+                });
+            });
+        };
+        const bool isChoice = entry.info.type == SettingType::choice;
         for (const std::string& value : endsOf(entry)) {
+            if (!isChoice && seen.size() == 2 && differs()) {
+                break;  // the default, which all other settings' frames have
+            }
             std::vector<std::string> assignments = context.with;
             assignments.push_back(entry.name + "=" + value);
             seen.push_back(subject(context.scene).images(settingsOf(assignments), context.frames, context.moving));
             expectSound(seen.back(), assignments.back());
         }
-        const bool differs = std::ranges::any_of(seen, [&](const Images& images) {
-            return !std::ranges::equal(images, seen.front(), [](const auto& a, const auto& b) {
-                return a.first == b.first && a.second.data == b.second.data;
-            });
-        });
-        EXPECT_NE(differs, invisible.contains(entry.name)) << entry.name << (differs ? " is seen" : " is not read");
+        EXPECT_NE(differs(), invisible.contains(entry.name)) << entry.name << (differs() ? " is seen" : " is not read");
     }
 }
 

@@ -43,6 +43,7 @@ constexpr std::array accepted{
 constexpr std::array refused{
     Difference{"Draco data is broken", "the validator does not decode Draco"},
     Difference{"is a broken image", "the validator does not decode images"},
+    Difference{"nothing is left to draw", "the validator does not draw"},
     Difference{"is neither PNG nor JPEG", "the validator only warns of an unknown image format"},
 };
 
