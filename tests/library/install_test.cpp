@@ -203,6 +203,17 @@ TEST_F(Install, AnotherMinorVersionIsRefused) {
 }
 
 // Over 5 s: CMake looks at compilers and libraries.
+// Before CMake fails in words of its own.
+TEST_F(Install, AFolderWithANameThatCMakeCannotHandleIsNamedFirst) {
+    for (const std::string name : {"a#b", "a[b]", "a\"b", "a;b"}) {
+        fs::create_directories(folder_ / name);
+        fs::copy_file(fs::path(REFLET_SOURCE) / "CMakeLists.txt", folder_ / name / "CMakeLists.txt");
+        const Ran ran = run("cd '" + at(name) + "' && cmake -S . -B build");
+        EXPECT_NE(ran.status, 0);
+        EXPECT_NE(ran.said.find("move or rename it"), std::string::npos) << ran.said;
+    }
+}
+
 TEST_F(Install, IsAPartOfAnotherProject) {
     write("host/CMakeLists.txt", R"(cmake_minimum_required(VERSION 3.22)
 project(host C CXX)
