@@ -131,6 +131,7 @@ std::array<float, frames> constant() {
     return all;
 }
 
+// Over 5 s: six runs of twelve frames with every effect.
 TEST_F(PreExposure, ChangesNothingButTheFactor) {
     std::array<float, frames> wanders{};
     for (uint32_t i = 0; i < frames; ++i) {
