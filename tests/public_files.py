@@ -47,7 +47,7 @@ def luminance(picture):
 
 def drawn(options, file, base, command):
     """Renders to BASE.exr and BASE.png unless they are there."""
-    record = base.with_suffix(".json")
+    record = pathlib.Path(f"{base}.json")  # not with_suffix: the base ends with a preset's name
     if record.exists():
         return json.loads(record.read_text())
     status, seconds, lines = run([options.program, *command, file, "--size", options.size, "-o", f"{base}.exr", "-o",
