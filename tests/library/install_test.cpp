@@ -214,10 +214,21 @@ TEST_F(Install, AFolderWithANameThatCMakeCannotHandleIsNamedFirst) {
     }
 }
 
+// The first block of CMake in the guide.
+std::string guidesFetchContent() {
+    std::ifstream file(REFLET_SOURCE "/docs/library.md");
+    const std::string guide{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+    const std::string open = "```cmake\n";
+    const size_t start = guide.find(open) + open.size();
+    return guide.substr(start, guide.find("```", start) - start);
+}
+
+// The sources are here: nothing is fetched.
 TEST_F(Install, IsAPartOfAnotherProject) {
     write("host/CMakeLists.txt", R"(cmake_minimum_required(VERSION 3.22)
 project(host C CXX)
-add_subdirectory()" REFLET_SOURCE R"( reflet)
+add_executable(host main.c)
+)" + guidesFetchContent() + R"(
 foreach(property INTERFACE_COMPILE_OPTIONS INTERFACE_LINK_OPTIONS)
     get_target_property(value reflet::reflet ${property})
     if(value)
@@ -232,11 +243,10 @@ endforeach()
 if(CMAKE_BUILD_TYPE)
     message(FATAL_ERROR "${CMAKE_BUILD_TYPE}")
 endif()
-add_executable(host main.c)
-target_link_libraries(host PRIVATE reflet::reflet)
 )");
     write("host/main.c", "#include <reflet/reflet.h>\nint main(void) { return 0; }\n");
-    expectRuns("cmake -S " + at("host") + " -B " + at("built") + " -G Ninja -DREFLET_EXAMPLES=ON");
+    expectRuns("cmake -S " + at("host") + " -B " + at("built") +
+               " -G Ninja -DREFLET_EXAMPLES=ON -DFETCHCONTENT_SOURCE_DIR_REFLET=" REFLET_SOURCE);
     EXPECT_NE(run("ninja -C " + at("built") + " -t targets all").said.find("reflet_window_example: phony"),
               std::string::npos);
 }

@@ -1,4 +1,4 @@
-// The list of built-in scenes, and what the quay is made of.
+// The list of built-in scenes, and what the quay and the street are made of.
 #include "scene/builtin.h"
 #include "scene/emitters.h"
 #include "scene/image_suns.h"
@@ -14,8 +14,9 @@ namespace reflet::test::builtin_list_test {
 namespace {
 
 TEST(BuiltinScenes, AllAreListedAndFoundByName) {
-    const std::array<std::string_view, 12> names{"cubes",       "tilted-cube", "cornell", "cave", "gloss", "colonnade",
-                                                 "mirror-hall", "lamps",       "moving",  "lens", "glass", "quay"};
+    const std::array<std::string_view, 13> names{"cubes",     "tilted-cube", "cornell", "cave",   "gloss",
+                                                 "colonnade", "mirror-hall", "lamps",   "moving", "lens",
+                                                 "glass",     "quay",        "street"};
     ASSERT_EQ(builtinScenes().size(), names.size());
     for (size_t i = 0; i < names.size(); ++i) {
         EXPECT_EQ(builtinScenes()[i].name, names[i]);
@@ -62,6 +63,43 @@ TEST(BuiltinQuay, HasWhatIsHard) {
         return instance.node >= 0 && scene.materials[scene.meshes[instance.mesh].material].blended;
     };
     EXPECT_GT(std::ranges::count_if(scene.instances, movesAndBlends), 10);
+}
+
+TEST(BuiltinStreet, IsLargeButNotTooLarge) {
+    const Scene scene = findBuiltinScene("street")->make();
+    size_t triangles = 0;
+    for (const Instance& instance : scene.instances) {
+        triangles += scene.meshes[instance.mesh].indices.size() / 3;
+    }
+    EXPECT_GT(triangles, 250000U);
+    EXPECT_LT(triangles, 350000U);
+    size_t bytes = scene.environment.image->data.size() * sizeof(float);
+    for (const Mesh& mesh : scene.meshes) {
+        bytes += mesh.positions.size() * (sizeof(vec3) + sizeof(VertexAttributes)) + mesh.indices.size() * 4;
+    }
+    for (const TextureImage& image : scene.images) {
+        bytes += image.rgba.size();
+    }
+    EXPECT_LT(bytes, 20'000'000U);
+}
+
+TEST(BuiltinStreet, HasPuddlesNeonLampsAndACarWithAClearCoat) {
+    const Scene scene = findBuiltinScene("street")->make();
+    EXPECT_GE(findEmitters(scene, 1024).all.size(), 20U);
+    EXPECT_LE(scene.lamps.size(), 8U);  // as many as have shadows by default
+    EXPECT_TRUE(std::ranges::all_of(scene.lamps, [](const Lamp& lamp) { return lamp.radius > 0.0F; }));
+    EXPECT_TRUE(std::ranges::any_of(scene.materials, [](const Material& m) { return m.clearcoat.factor == 1.0F; }));
+    const auto road = std::ranges::find(scene.materials, "wet asphalt", &Material::name);
+    ASSERT_NE(road, scene.materials.end());
+    const TextureImage& wetness = scene.images[static_cast<size_t>(road->metallicRoughnessTexture.image)];
+    size_t smooth = 0;
+    size_t rough = 0;
+    for (size_t i = 1; i < wetness.rgba.size(); i += 4) {
+        smooth += wetness.rgba[i] < 12 ? 1 : 0;
+        rough += wetness.rgba[i] > 40 ? 1 : 0;
+    }
+    EXPECT_GT(10 * smooth, wetness.rgba.size() / 4);  // puddles
+    EXPECT_GT(3 * rough, wetness.rgba.size() / 4);
 }
 
 }  // namespace

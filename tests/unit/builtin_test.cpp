@@ -268,6 +268,9 @@ TEST_P(EveryBuiltinScene, BoundsContainAllPositionsTightly) {
 
 TEST_P(EveryBuiltinScene, IsSmallEnoughForOneShadowMapAndAFastFrame) {
     const vec3 size = scene.bounds().size();
+    if (scene.name == "street") {
+        GTEST_SKIP() << "it is large: BuiltinStreet.IsLargeButNotTooLarge";
+    }
     EXPECT_LT(glm::length(size), scene.name == "quay" ? 500.0F : 30.0F);  // the quay is there for cascades
     EXPECT_LE(worldTriangles(scene).size(), 60000U);
 }

@@ -10,7 +10,7 @@
 namespace reflet {
 namespace {
 
-constexpr std::array<BuiltinScene, 12> scenes{{
+constexpr std::array<BuiltinScene, 13> scenes{{
     {"cubes", "a polished box and painted cubes on labelled tiles: reflections, contact shadows, first steps",
      builtin::makeCubes},
     {"tilted-cube",
@@ -34,6 +34,9 @@ constexpr std::array<BuiltinScene, 12> scenes{{
     {"quay",
      "a long quay at dusk: a low sun in the sky's image, tiny bulbs, wet paving, a swinging lantern, moving cloth",
      builtin::makeQuay},
+    {"street",
+     "a wet street at night: puddles, neon signs, lit windows, street lamps, a car of clear-coated paint: everything",
+     builtin::makeStreet},
 }};
 
 }  // namespace

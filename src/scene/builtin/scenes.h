@@ -21,6 +21,7 @@ Scene makeMoving();
 Scene makeLens();
 Scene makeGlass();
 Scene makeQuay();
+Scene makeStreet();
 
 /// The number in "tessellated-N", if it is valid for makeTessellated.
 std::optional<uint32_t> tessellatedTriangles(std::string_view name);
