@@ -354,16 +354,18 @@ typedef struct RefletGBuffer {
      */
     RefletImage backDepth;
     /**
-     * Masks: 0 to 1, each a channel of any image; absent: 0. Above 0.5 in `excluded`: rays and ambient occlusion do not
-     * see what is there (first person weapons, gizmos, water that reflects by itself), and it gets no light of theirs.
-     * Above 0.5 in `unlit`: it reflects nothing (screens, skies in front of depth, interface), and rays see it.
-     * `reactive`: the share of the history that refletTemporal gives up, for what motion does not describe (particles,
-     * animated textures, blended surfaces).
+     * Mask, 0 to 1, a channel of any image; absent: 0. Above 0.5: rays and ambient occlusion do not see what is there
+     * (first person weapons, gizmos, water that reflects by itself), and it gets no light of theirs.
      */
     RefletImage excluded;
     uint32_t excludedChannel; /**< 0 to 3 */
+    /** Mask, as above. Above 0.5: reflects nothing, but rays see it (screens, skies in front of depth, interface). */
     RefletImage unlit;
     uint32_t unlitChannel; /**< 0 to 3 */
+    /**
+     * Mask, as above: the share of the history that refletTemporal gives up, for what motion does not describe
+     * (particles, animated textures, blended surfaces).
+     */
     RefletImage reactive;
     uint32_t reactiveChannel; /**< 0 to 3 */
 } RefletGBuffer;
@@ -831,7 +833,7 @@ typedef struct RefletToneMapInfo {
      * second, of PQ; the third, of scRGB, which needs it. Not read with `output`.
      */
     VkFormat format;
-    RefletTransfer transfer;
+    RefletTransfer transfer; /**< encoding of the picture */
     /**
      * Of scRGB and PQ: luminance of what sRGB shows as white, 1 to 10000 nits; 0: 203 (ITU-R BT.2408). With
      * `tonemap.curve=neutral` what is brighter goes on to peakLuminance, srgb and gamma22 clip there; aces and agx end

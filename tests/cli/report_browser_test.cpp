@@ -1,25 +1,10 @@
 // The report's page in a browser (Chromium, if installed), opened as a file.
-#include "cli/program.h"
+#include "cli/browser.h"
 #include "support/html.h"
-
-#include <array>
-#include <cstdlib>
-#include <filesystem>
-#include <sstream>
 
 namespace reflet::report_browser_test {
 
 namespace {
-
-// "" if there is none.
-std::string findBrowser() {
-    for (const char* name : {"chromium", "chromium-browser", "google-chrome"}) {
-        if (isInstalled(name)) {
-            return name;
-        }
-    }
-    return "";
-}
 
 // Simulates a user, and writes the effects into attributes of the root element.
 constexpr const char* userScript = R"(
@@ -69,12 +54,12 @@ addEventListener("load", async () => {
 </script>
 </body>)";
 
-class ReportBrowserTest : public ProgramTest {
+class ReportBrowserTest : public BrowserTest {
 protected:
     void SetUp() override {
-        browser_ = findBrowser();
-        if (browser_.empty()) {
-            GTEST_SKIP() << "no chromium, chromium-browser or google-chrome in PATH";
+        BrowserTest::SetUp();
+        if (IsSkipped()) {
+            return;
         }
         ASSERT_TRUE(quietSuccess(run({"report", "builtin:cubes", "-o", "out", "--size", "64x36", "--spp", "2",
                                       "--frames", "2", "--preset", "fast,direct"})));
@@ -87,42 +72,10 @@ protected:
         write("out/" + file, page);
     }
 
-    /// The page after its scripts ran, and the browser's messages. `timeout` also ends its child processes.
     [[nodiscard]] Outcome open(const std::string& file, const std::string& window) const {
-        Arguments all{"--kill-after=5",
-                      "60",
-                      browser_,
-                      "--headless",
-                      "--no-sandbox",
-                      "--disable-gpu",
-                      "--disable-dev-shm-usage",
-                      "--no-first-run",
-                      "--disable-background-networking",
-                      "--disable-component-update",
-                      "--disable-extensions",
-                      "--enable-logging=stderr",
-                      "--dump-dom",
-                      "--virtual-time-budget=5000",
-                      "--window-size=" + window};
-        all.push_back("--user-data-dir=" + path("profile").string());
-        all.push_back("file://" + path("out/" + file).string());
-        return runOther("timeout", all, {{"HOME", path("").string()}, {"DBUS_SESSION_BUS_ADDRESS", "/dev/null"}});
+        return openFile(path("out/" + file), window);
     }
-
-private:
-    std::string browser_;
 };
-
-std::vector<std::string> consoleLines(const Outcome& run) {
-    std::vector<std::string> found;
-    std::istringstream lines(run.err);
-    for (std::string line; std::getline(lines, line);) {
-        if (line.find("CONSOLE") != std::string::npos) {
-            found.push_back(line);
-        }
-    }
-    return found;
-}
 
 // Over 5 s: starts a browser.
 TEST_F(ReportBrowserTest, TheDividerAndTheChoicesWork) {

@@ -56,7 +56,7 @@ Scene makeStreet() {
     street::addLights(scene);
     street::addThings(scene);
     street::addCar(scene, at({2.15F, 0.0F, -0.6F}) * turned(166.0F));
-    scene.cameras.push_back(camera("main", {-0.75F, 0.8F, 6.6F}, {0.1F, 2.15F, -10.0F}, 56));
+    scene.cameras.push_back(camera("main", {-0.6F, 0.55F, 6.6F}, {0.1F, 1.55F, -10.0F}, 55));
     scene.sun = sun({0.35F, -0.85F, 0.25F}, {0.16F, 0.24F, 0.42F});  // the moon
     scene.environment.image = skyImage();
     return scene;

@@ -24,7 +24,7 @@ float asphalt(const vec2& uv) {
     const float across = 2.0F * wrapped.x - 1.0F;  // -1 to 1 over 8 m
     const float ruts = -0.012F * std::cos(3.0F * pi * across);
     // A wide dip that the camera stands at.
-    const vec2 dip = (wrapped - vec2(0.44F, 0.17F)) * period / vec2(2.3F, 1.7F);
+    const vec2 dip = (wrapped - vec2(0.45F, 0.18F)) * period / vec2(2.6F, 2.0F);
     const float large = 0.03F * tilingNoise(wrapped, 4, 2, 21U) + 0.016F * tilingNoise(wrapped, 16, 3, 22U);
     return large + ruts + 0.006F - 0.055F * std::exp(-glm::dot(dip, dip));
 }
@@ -45,8 +45,8 @@ TextureImage roughnessMap() {
         const float damp = 1.0F - glm::smoothstep(water, 0.035F, height);
         const float grain = hash01(static_cast<int>(uv.x * 512.0F), static_cast<int>(uv.y * 1024.0F), 0, 23U) - 0.5F;
         const float wet = glm::mix(0.42F, 0.2F, damp) + 0.08F * grain + 0.08F * tilingNoise(uv, 24, 3, 24U);
-        const float rough = glm::mix(wet, 0.025F, puddle(uv));
-        return static_cast<Hex>(std::lround(255.0F * std::clamp(rough, 0.02F, 1.0F))) << 8U;  // green
+        const float rough = glm::mix(wet, 0.0F, puddle(uv));
+        return static_cast<Hex>(std::lround(255.0F * std::clamp(rough, 0.0F, 1.0F))) << 8U;  // green
     });
     return canvas.finish();
 }
@@ -88,7 +88,7 @@ Mesh surface(const Piece& p) {
             const vec2 xz = p.from + size * vec2(column, row) / vec2(cells);
             const float right = roadHeight(xz + vec2(e, 0)) - roadHeight(xz - vec2(e, 0));
             const float near = roadHeight(xz + vec2(0, e)) - roadHeight(xz - vec2(0, e));
-            const vec2 ripple = 0.0035F * puddle(roadUv(xz)) *
+            const vec2 ripple = 0.0008F * puddle(roadUv(xz)) *
                                 vec2(noise(vec3(5.0F * xz, 0.0F), 26U), noise(vec3(5.0F * xz, 9.0F), 27U));
             const uint32_t index =
                 addVertex(mesh, {xz.x, roadHeight(xz) + p.lift, xz.y},

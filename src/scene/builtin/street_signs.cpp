@@ -183,14 +183,14 @@ void addSigns(Scene& scene) {
     const vec3 violet(5.2F, 1.8F, 13.0F);
     const vec3 red(13.5F, 1.1F, 0.7F);
     const std::array<Sign, 11> signs{{
-        {"HOTEL", pink, acrossStreet(true, -6.2F, 6.1F, 0.85F), 0.72F, true},
-        {"BAR", cyan, acrossStreet(true, -2.2F, 4.35F, 1.0F), 0.62F},
+        {"HOTEL", pink, acrossStreet(true, -8.5F, 5.9F, 0.85F), 0.66F, true},
+        {"BAR", cyan, acrossStreet(true, -2.6F, 4.2F, 0.9F), 0.62F},
         {"REFLET", red, onFront(true, -5.6F, 3.26F), 0.5F},
-        {"CAFE", amber, acrossStreet(true, -13.0F, 4.5F, 1.15F), 0.62F},
+        {"CAFE", amber, acrossStreet(true, -12.0F, 4.1F, 1.5F), 0.66F},
         {"NEON", green, acrossStreet(true, -19.0F, 6.6F, 0.85F), 0.85F, true},
-        {"JAZZ", violet, acrossStreet(false, -7.6F, 5.9F, 0.85F), 0.8F, true},
+        {"JAZZ", violet, acrossStreet(false, -7.6F, 5.2F, 0.95F), 0.75F, true},
         {"OPEN", cyan, onFront(false, -3.4F, 3.26F), 0.42F},
-        {"PIZZA", amber, acrossStreet(false, -15.0F, 4.4F, 1.25F), 0.55F},
+        {"PIZZA", amber, acrossStreet(false, -13.5F, 4.2F, 1.6F), 0.62F},
         {"BAR", pink, acrossStreet(false, -21.5F, 6.2F, 0.95F), 0.9F, true},
         {"TOTO", green, acrossStreet(true, -31.0F, 5.8F, 1.0F), 0.95F, true},
         {"HOTEL", red, acrossStreet(false, -31.0F, 7.2F, 1.0F), 0.95F, true},
@@ -198,7 +198,7 @@ void addSigns(Scene& scene) {
     for (size_t i = 0; i < signs.size(); ++i) {
         addSign(scene, signs.at(i), board, static_cast<uint32_t>(i));
     }
-    addArrow(scene, acrossStreet(true, -2.1F, 3.3F, 1.25F));
+    addArrow(scene, acrossStreet(true, -2.5F, 3.15F, 1.15F));
 }
 
 }  // namespace reflet::builtin::street

@@ -1,0 +1,28 @@
+// Opens pages in Chromium, if it is installed.
+#pragma once
+
+#include "cli/program.h"
+
+#include <string>
+#include <vector>
+
+namespace reflet {
+
+/// Name of the installed browser; "" if there is none.
+std::string findBrowser();
+
+class BrowserTest : public ProgramTest {
+protected:
+    void SetUp() override;
+
+    /// A file after its scripts ran, and the browser's messages. window: "WIDTH,HEIGHT", at least 500 wide.
+    [[nodiscard]] Outcome openFile(const std::filesystem::path& file, const std::string& window) const;
+
+private:
+    std::string browser_;
+};
+
+/// Messages of scripts and of the page's parser.
+std::vector<std::string> consoleLines(const Outcome& run);
+
+}  // namespace reflet
