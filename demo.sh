@@ -42,7 +42,7 @@ picture() {  # file, caption, arguments of reflet render...
     cards+="<figcaption>$caption<code>$command</code></figcaption></figure>"$'\n'
 }
 
-picture first.png "First look: a cave, low sample counts, denoised" builtin:cave --preset fast --size 320x180
+picture first.png "First look: a wet street at night, a frame of the default preset" builtin:street --preset balanced --size 640x360
 # To a variable first: a failure within `for … in $(…)` would go unnoticed.
 scenes=$("$reflet" list scenes)
 while read -r scene description; do

@@ -1,13 +1,68 @@
 #!/usr/bin/env bash
-# Renders the images of the documentation, docs/pictures/*.png. Needs a built program (./demo.sh).
+# Renders the images of the documentation, docs/pictures/. Needs a built program (./demo.sh); the last two also cwebp and
+# img2webp (apt install webp).
+#     docs/pictures.sh           the pictures of the manual
+#     docs/pictures.sh street    the picture of the README; half an hour on two cores, most of it for the reference
+#     docs/pictures.sh moving    the animations, docs/pictures/moving/*.webp; a quarter of an hour on two cores
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
-mkdir -p docs/pictures
+reflet=${REFLET:-build/bin/reflet}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+mkdir -p docs/pictures/moving
+
+# The night in three bands: direct light, the default preset, the reference.
+street() {
+    local scene=(builtin:street --size 640x360)
+    "$reflet" render "${scene[@]}" --preset direct -o "$work/direct.png"
+    "$reflet" render "${scene[@]}" --preset balanced -o "$work/balanced.png"
+    "$reflet" reference "${scene[@]}" --spp 256 -o "$work/reference.png"
+    docs/street.py "$work"/{direct,balanced,reference}.png "$work/wipe.png"
+    cwebp -quiet -q 88 -m 6 "$work/wipe.png" -o docs/pictures/street-wipe.webp
+}
+
+# animation NAME MILLISECONDS PICTURE...: an endless loop.
+animation() {
+    local file="docs/pictures/moving/$1.webp" time=$2
+    shift 2
+    img2webp -loop 0 -lossy -q 62 -m 6 -d "$time" "$@" -o "$file"
+    echo "$file: $(stat -c %s "$file") bytes"
+}
+
+# sequence NAME FRAMES FRAMES_PER_SECOND SCENE OPTION...
+sequence() {
+    local name=$1 frames=$2 rate=$3 scene=$4
+    shift 4
+    "$reflet" render "$scene" --preset balanced --size 320x180 --frames "$frames" --fps "$rate" --segment 0 "$@" \
+        -o "$work/${name}_####.png"
+    animation "$name" $((1000 / rate)) "$work/${name}"_*.png
+}
+
+moving() {
+    sequence street 48 12 builtin:street --path docs/views/street-flight.json
+    sequence reflections 48 12 builtin:moving
+    sequence light 24 24 builtin:motion-lamp
+    "$reflet" render builtin:cave --preset direct --size 320x180 -o "$work/off.png"
+    "$reflet" render builtin:cave --preset balanced --size 320x180 -o "$work/on.png"
+    animation indirect 1500 "$work/off.png" "$work/on.png"
+}
+
+case "${1-}" in
+    "") ;;
+    street | moving)
+        "$1"
+        exit
+        ;;
+    *)
+        echo "usage: docs/pictures.sh [street|moving]" >&2
+        exit 2
+        ;;
+esac
 
 render() { # SCENE NAME OPTION…
     local scene=$1 file="docs/pictures/$2.png"
     shift 2
-    build/bin/reflet render "builtin:$scene" -o "$file" "$@"
+    "$reflet" render "builtin:$scene" -o "$file" "$@"
     echo "$file"
 }
 
@@ -23,9 +78,6 @@ for show in albedo normal depth sun_visibility direct indirect_diffuse indirect_
 done
 
 # The reference, its visible-only part, the default settings and their error.
-reflet=build/bin/reflet
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
 "$reflet" reference builtin:cubes --size 320x180 --spp 1024 -o docs/pictures/cubes-truth.png -o "$work/truth.exr"
 "$reflet" reference builtin:cubes --size 320x180 --spp 1024 --visible-only -o docs/pictures/cubes-visible-only.png
 "$reflet" render builtin:cubes --preset balanced --size 320x180 -o docs/pictures/cubes-default.png -o "$work/default.exr"

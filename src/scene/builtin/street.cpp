@@ -31,7 +31,7 @@ vec3 duskSky(const vec3& direction) {
 }
 
 std::shared_ptr<const FloatImage> skyImage() {
-    auto image = std::make_shared<FloatImage>(FloatImage{768, 384, {"R", "G", "B"}, {}});
+    auto image = std::make_shared<FloatImage>(FloatImage{640, 320, {"R", "G", "B"}, {}});
     image->data.reserve(size_t{3} * image->width * image->height);
     for (uint32_t y = 0; y < image->height; ++y) {
         const float theta = pi * (static_cast<float>(y) + 0.5F) / static_cast<float>(image->height);

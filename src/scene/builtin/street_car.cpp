@@ -158,9 +158,9 @@ void addCarLights(Scene& scene, const mat4& toWorld) {
     static constexpr std::array<vec2, 4> rim{vec2(0.12F, -0.04F), vec2(0.128F, 0.0F), vec2(0.12F, 0.02F),
                                              vec2(0.108F, 0.01F)};
     const uint32_t tail =
-        addMesh(scene, "tail light", addGlow(scene, "tail light", {16.0F, 0.6F, 0.3F}), lathe(lens, 24));
+        addMesh(scene, "tail light", addGlow(scene, "tail light", {5.5F, 0.12F, 0.06F}), lathe(lens, 24));
     const uint32_t head =
-        addMesh(scene, "head light", addGlow(scene, "head light", {5.0F, 4.4F, 3.4F}), lathe(lens, 24));
+        addMesh(scene, "head light", addGlow(scene, "head light", {3.0F, 2.5F, 1.8F}), lathe(lens, 24));
     const uint32_t ring =
         addMesh(scene, "light rim", addMaterial(scene, plain("light rim", {0xE0E2E4, 0.1F, 1.0F})), lathe(rim, 24));
     for (const float s : {-1.0F, 1.0F}) {

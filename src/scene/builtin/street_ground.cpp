@@ -156,8 +156,8 @@ void addRoad(Scene& scene) {
 
 void addPavements(Scene& scene) {
     Material slabs =
-        textured("pavement", addTexture(scene, pavingColors("slabs", 512, 0x6E6A66, 0x57544F, 0x2B2A29)), 0.33F);
-    slabs.normalTexture = addTexture(scene, pavingNormals("slab relief", 512, 2.0F));
+        textured("pavement", addTexture(scene, pavingColors("slabs", 256, 0x6E6A66, 0x57544F, 0x2B2A29)), 0.33F);
+    slabs.normalTexture = addTexture(scene, pavingNormals("slab relief", 256, 2.0F));
     slabs.normalScale = 0.7F;
     const uint32_t pavement = addMaterial(scene, slabs);
     const uint32_t stone = addMaterial(scene, plain("kerb stone", {0x77736D, 0.35F}));

@@ -41,18 +41,21 @@ std::string_view strokesOf(char letter) {
     fail("no neon letter '{}'", letter);
 }
 
-// Corners as a bent tube has them (G. Chaikin, An Algorithm for High-Speed Curve Generation, 1974); ends stay.
-std::vector<vec3> rounded(const std::vector<vec3>& line) {
-    std::vector<vec3> result = line;
-    for (int pass = 0; pass < 2; ++pass) {
-        std::vector<vec3> next{result.front()};
-        for (size_t i = 0; i + 1 < result.size(); ++i) {
-            next.push_back(glm::mix(result[i], result[i + 1], i == 0 ? 0.4F : 0.25F));
-            next.push_back(glm::mix(result[i], result[i + 1], i + 2 == result.size() ? 0.6F : 0.75F));
+// Corners bent to arcs of about the radius, less where the line is short.
+std::vector<vec3> rounded(const std::vector<vec3>& line, float radius) {
+    std::vector<vec3> result{line.front()};
+    for (size_t i = 1; i + 1 < line.size(); ++i) {
+        const vec3& p = line[i];
+        const float before = std::min(radius, 0.45F * glm::distance(p, line[i - 1]));
+        const float after = std::min(radius, 0.45F * glm::distance(p, line[i + 1]));
+        const vec3 from = p + before * glm::normalize(line[i - 1] - p);
+        const vec3 to = p + after * glm::normalize(line[i + 1] - p);
+        for (int k = 0; k <= 4; ++k) {  // a parabola
+            const float t = 0.25F * static_cast<float>(k);
+            result.push_back(glm::mix(glm::mix(from, p, t), glm::mix(p, to, t), t));
         }
-        next.push_back(result.back());
-        result = next;
     }
+    result.push_back(line.back());
     return result;
 }
 
@@ -62,7 +65,7 @@ void addLetter(std::vector<Line>& lines, char letter, const vec2& origin) {
     Line line;
     const auto flush = [&] {
         if (line.size() >= 2) {
-            lines.push_back(rounded(line));
+            lines.push_back(rounded(line, 0.16F));
         }
         line.clear();
     };
@@ -145,8 +148,9 @@ void addSign(Scene& scene, const Sign& s, uint32_t board, uint32_t number) {
         addTexture(scene, boardGlow(lit.name, lines, sizeOf(s)), {.wrapU = Wrap::clamp, .wrapV = Wrap::clamp});
     place(scene, lit.name, addMaterial(scene, lit), patch({{0, 0, 0}, {half.x, 0, 0}, {0, half.y, 0}}),
           s.toWorld * at({0, 0, 0.053F}));
-    const std::array<vec3, 5> rim{vec3(-half.x, -half.y, 0), vec3(half.x, -half.y, 0), vec3(half.x, half.y, 0),
-                                  vec3(-half.x, half.y, 0), vec3(-half.x, -half.y, 0)};
+    const Line rim = rounded({vec3(0, -half.y, 0), vec3(half.x, -half.y, 0), vec3(half.x, half.y, 0),
+                              vec3(-half.x, half.y, 0), vec3(-half.x, -half.y, 0), vec3(0, -half.y, 0)},
+                             0.06F);
     const vec3 other = 0.6F * vec3(s.color.z, s.color.x, s.color.y) + 0.1F * s.color;
     place(scene, name + " rim", addGlow(scene, name + " rim", other), tube(rim, 0.018F, 8),
           s.toWorld * at({0, 0, 0.06F}));
@@ -167,7 +171,7 @@ void addArrow(Scene& scene, const mat4& toWorld) {
                                     vec3(0.6F, -0.6F, 0)};
     const std::array<vec3, 3> head{vec3(0.3F, -0.25F, 0), vec3(0.6F, -0.65F, 0), vec3(0.9F, -0.25F, 0)};
     Mesh mesh;
-    append(mesh, tube(rounded({shaft.begin(), shaft.end()}), 0.03F, 8), mat4(1.0F));
+    append(mesh, tube(rounded({shaft.begin(), shaft.end()}, 0.2F), 0.03F, 8), mat4(1.0F));
     append(mesh, tube(head, 0.03F, 8), mat4(1.0F));
     place(scene, "arrow", addGlow(scene, "arrow", {9.0F, 5.2F, 0.7F}), mesh, toWorld);
 }

@@ -13,6 +13,13 @@ vec3 perpendicular(const vec3& along) {
     return glm::normalize(glm::cross(axis, along));
 }
 
+// The vector after the smallest rotation that takes one unit vector to another, which must not be its opposite.
+vec3 turnedWith(const vec3& v, const vec3& from, const vec3& to) {
+    const vec3 axis = glm::cross(from, to);
+    const float cosine = glm::dot(from, to);
+    return cosine * v + glm::cross(axis, v) + axis * glm::dot(axis, v) / (1.0F + cosine);
+}
+
 }  // namespace
 
 mat4 side(bool left, float z) {
@@ -21,20 +28,22 @@ mat4 side(bool left, float z) {
 
 Mesh tube(std::span<const vec3> line, float radius, unsigned sides) {
     Mesh mesh;
-    vec3 x = perpendicular(glm::normalize(line[1] - line[0]));
+    vec3 into = glm::normalize(line[1] - line[0]);
+    vec3 x = perpendicular(into);  // turns with the line, and not about it
     float travelled = 0.0F;
     for (size_t i = 0; i < line.size(); ++i) {
-        const vec3 into = glm::normalize(line[std::max<size_t>(i, 1)] - line[std::max<size_t>(i, 1) - 1]);
         const size_t next = std::min(i + 1, line.size() - 1);
         const vec3 out = glm::normalize(line[next] - line[next - 1]);
-        const vec3 along = glm::normalize(into + out + 1e-4F * into);
-        x = glm::normalize(x - along * glm::dot(x, along));
-        const vec3 y = glm::cross(along, x);
+        const vec3 along = glm::normalize(into + out);
+        const vec3 corner = turnedWith(x, into, along);
+        const vec3 y = glm::cross(along, corner);
+        x = turnedWith(x, into, out);
+        into = out;
         travelled += i > 0 ? glm::distance(line[i], line[i - 1]) : 0.0F;
         for (unsigned s = 0; s <= sides; ++s) {
             const float u = static_cast<float>(s) / static_cast<float>(sides);
             const float angle = 2.0F * pi * (s == sides ? 0.0F : u);
-            const vec3 n = std::cos(angle) * x + std::sin(angle) * y;
+            const vec3 n = std::cos(angle) * corner + std::sin(angle) * y;
             addVertex(mesh, line[i] + radius * n, n, {u, -travelled});
         }
     }
