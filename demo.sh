@@ -9,7 +9,7 @@ step() {  # text
 }
 
 cores=$(nproc)
-echo "Reflet's demo: packages, build, pictures. On a fresh machine with $cores cores about $(((350 / cores + 290 + 59) / 60)) minutes,"
+echo "Reflet's demo: packages, build, pictures. On a fresh machine with $cores cores about $(((350 / cores + 365 + 59) / 60)) minutes,"
 echo "less the next time. Everything but the packages stays in this folder (build/, out/)."
 
 step "1 of 3: packages that the build needs (apt; about a minute if they are missing)"
@@ -22,7 +22,7 @@ if [[ ! -f build/build.ninja ]]; then
 fi
 cmake --build --preset release --parallel "$cores" --target reflet_program
 
-step "3 of 3: pictures (about four minutes on two cores and no GPU)"
+step "3 of 3: pictures (about five minutes on two cores and no GPU)"
 reflet=build/bin/reflet
 mkdir -p out
 cards=""

@@ -18,7 +18,7 @@ street() {
     "$reflet" render "${scene[@]}" --preset balanced -o "$work/balanced.png"
     "$reflet" reference "${scene[@]}" --spp 256 -o "$work/reference.png"
     docs/street.py "$work"/{direct,balanced,reference}.png "$work/wipe.png"
-    cwebp -quiet -q 88 -m 6 "$work/wipe.png" -o docs/pictures/street-wipe.webp
+    cwebp -quiet -q 94 -m 6 "$work/wipe.png" -o docs/pictures/street-wipe.webp
 }
 
 # animation NAME MILLISECONDS PICTURE...: an endless loop.
