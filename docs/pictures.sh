@@ -68,7 +68,6 @@ render() { # SCENE NAME OPTION…
 
 # Several bounces: hits return the previous frame's light, so each frame adds one bounce.
 bounces=(--preset plain --set trace_screen.light=previous --set temporal.enabled=true)
-render cubes cubes "${bounces[@]}" --frames 8 --set diffuse.rays=64 --size 560x315
 render cornell cornell "${bounces[@]}" --frames 4 --set diffuse.rays=64 --size 320x240
 render cornell cornell-direct --preset direct --size 320x240
 render mirror-hall mirror-hall "${bounces[@]}" --frames 6 --set specular.rays=4 --size 448x252

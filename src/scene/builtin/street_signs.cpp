@@ -15,7 +15,7 @@ struct Letter {
     std::string_view strokes;  ///< points "xy" with x in 0..4 and y in 0..6; '|' starts another stroke
 };
 
-constexpr std::array<Letter, 16> letters{{{'A', "002640|1232"},
+constexpr std::array<Letter, 16> letters{{{'A', "0026|2640|1232"},
                                           {'B', "00063645443303|3342413000"},
                                           {'C', "45351605020120304041"},
                                           {'E', "46060040|0333"},
@@ -24,12 +24,12 @@ constexpr std::array<Letter, 16> letters{{{'A', "002640|1232"},
                                           {'I', "2026"},
                                           {'J', "464120100102"},
                                           {'L', "060040"},
-                                          {'N', "00064046"},
+                                          {'N', "0006|0640|4046"},
                                           {'O', "2010010516263645413020"},
                                           {'P', "00063645443303"},
                                           {'R', "00063645443303|2340"},
                                           {'T', "0646|2026"},
-                                          {'Z', "06460040"},
+                                          {'Z', "0646|4600|0040"},
                                           {'K', "0006|460340"}}};
 
 std::string_view strokesOf(char letter) {
