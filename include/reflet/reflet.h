@@ -115,7 +115,7 @@ typedef struct RefletContextInfo {
     const VkPhysicalDeviceFeatures2* enabledFeatures;
     /** Extensions that were enabled, of instance and device. Used: VK_EXT_debug_utils, for names and labels. */
     const char* const* enabledExtensions;
-    uint32_t enabledExtensionCount;      /**< of enabledExtensions */
+    uint32_t enabledExtensionCount;      /**< number of enabledExtensions */
     const RefletMemoryCallbacks* memory; /**< copied; NULL: vkAllocateMemory */
     /** Of host memory of Vulkan objects; copied. NULL: the driver's own. */
     const VkAllocationCallbacks* allocator;
@@ -135,7 +135,7 @@ typedef struct RefletContextInfo {
      * family, whichever it is.
      */
     const uint32_t* queueFamilies;
-    uint32_t queueFamilyCount; /**< of queueFamilies */
+    uint32_t queueFamilyCount; /**< number of queueFamilies */
 } RefletContextInfo;
 
 /** Makes a context. On failure *context is NULL. Records nothing, makes no pipelines. */
@@ -145,12 +145,12 @@ REFLET_API RefletResult refletCreateContext(const RefletContextInfo* info, Refle
  * error in `log`, and the context goes with the last of them. NULL, or a context that was destroyed: does nothing.
  */
 REFLET_API void refletDestroyContext(RefletContext context);
-/** Bytes of device memory that the context has allocated: whole blocks, for all its views. */
+/** Returns the bytes of device memory that the context has allocated: whole blocks, for all its views. */
 REFLET_API RefletResult refletContextMemory(RefletContext context, uint64_t* bytes);
 /**
- * The content of the context's own pipeline cache, for RefletContextInfo::pipelineCacheData of a later run; drivers
- * ignore data of another device or driver. *size in: room in `data`; out: bytes. data NULL: only how many there are. An
- * error if the host gave a cache.
+ * Copies the content of the context's own pipeline cache, for RefletContextInfo::pipelineCacheData of a later run;
+ * drivers ignore data of another device or driver. *size in: room in `data`; out: bytes. data NULL: only *size is set.
+ * An error if the host gave a cache.
  */
 REFLET_API RefletResult refletPipelineCacheData(RefletContext context, size_t* size, void* data);
 
@@ -168,17 +168,17 @@ typedef struct RefletSettingInfo {
     size_t structSize;          /**< required */
     const char* name;           /**< "trace_screen.max_steps", as `reflet list settings` prints it */
     const char* help;           /**< what it does, and its effect on quality and cost */
-    RefletSettingType type;     /**< of its value */
-    double min;                 /**< of numbers */
-    double max;                 /**< of numbers */
-    const char* range;          /**< as text: "1 to 4096", "true or false", "linear, halving, …" */
-    const char* defaultValue;   /**< as text */
-    double defaultNumber;       /**< as refletGetSettingNumber gives it */
-    uint32_t choiceCount;       /**< of a choice, else 0 */
-    const char* const* choices; /**< their names; refletSetSettingNumber takes their index */
+    RefletSettingType type;     /**< type of the value */
+    double min;                 /**< smallest value of a number */
+    double max;                 /**< largest value of a number */
+    const char* range;          /**< the range as text: "1 to 4096", "true or false", "linear, halving, …" */
+    const char* defaultValue;   /**< default value as text */
+    double defaultNumber;       /**< default value as refletGetSettingNumber returns it */
+    uint32_t choiceCount;       /**< number of choices; 0 for other types */
+    const char* const* choices; /**< names of the choices; refletSetSettingNumber takes the index */
 } RefletSettingInfo;
 
-/** preset: NULL or "" for the defaults, else as refletApplyPreset. */
+/** Creates settings. preset: NULL or "" for the defaults, else a name as for refletApplyPreset. */
 REFLET_API RefletResult refletCreateSettings(const char* preset, RefletSettings* settings);
 REFLET_API void refletDestroySettings(RefletSettings settings);
 /**
@@ -186,15 +186,18 @@ REFLET_API void refletDestroySettings(RefletSettings settings);
  * that only the program has (captured probes, drawn planar reflections) are left out.
  */
 REFLET_API RefletResult refletApplyPreset(RefletSettings settings, const char* preset);
-/** Sets one from text: ("trace_screen.max_steps", "64"). The error suggests the nearest name, or says the range. */
+/** Sets a setting from text: ("trace_screen.max_steps", "64"). The error suggests the nearest name or tells the range.
+ */
 REFLET_API RefletResult refletSetSetting(RefletSettings settings, const char* name, const char* value);
-/** The value as text; valid until the thread's next call of this function. NULL for an unknown name. */
+/** Returns a setting's value as text, valid until the thread's next call of this function; NULL for an unknown name. */
 REFLET_API const char* refletGetSetting(RefletSettings settings, const char* name);
-/** The same as a number: of real and integer settings the value, 0 or 1 of a switch, the index of a choice. */
+/** Sets a setting from a number: the value of a real or an integer, 0 or 1 of a switch, the index of a choice. */
 REFLET_API RefletResult refletSetSettingNumber(RefletSettings settings, const char* name, double value);
+/** Returns a setting as a number, in the same form. */
 REFLET_API RefletResult refletGetSettingNumber(RefletSettings settings, const char* name, double* value);
+/** Number of settings. */
 REFLET_API uint32_t refletSettingCount(void);
-/** index: 0 to refletSettingCount() - 1. */
+/** Describes a setting. index: 0 to refletSettingCount() - 1. */
 REFLET_API RefletResult refletSettingInfo(uint32_t index, RefletSettingInfo* info);
 
 /* ------------------------------------------------------------------------------------------------------- view --- */
@@ -210,7 +213,7 @@ typedef enum RefletViewFlags {
     REFLET_VIEW_PASS_TIMES = 1 << 0
 } RefletViewFlags;
 
-/** A view at its creation. */
+/** Parameters of refletCreateView. */
 typedef struct RefletViewInfo {
     size_t structSize; /**< required */
     /** Required: pixels, 1 to 16384: the size of its frames, or of the largest (RefletFrameInfo::renderSize). */
@@ -233,8 +236,8 @@ REFLET_API RefletResult refletCreateView(RefletContext context, const RefletView
 /** The device must have finished all frames of the view. NULL, or a view that was destroyed: does nothing. */
 REFLET_API void refletDestroyView(RefletView view);
 /**
- * From the next frame on. Images are made anew when that frame needs them; histories start again. For sizes that follow
- * the load (dynamic resolution): RefletFrameInfo::renderSize, which keeps histories and memory.
+ * Changes the size of frames, from the next frame on. That frame recreates the images that it needs, and histories
+ * start again. For sizes that follow the load (dynamic resolution) use RefletFrameInfo::renderSize, which keeps both.
  */
 REFLET_API RefletResult refletResizeView(RefletView view, uint32_t width, uint32_t height);
 /**
@@ -251,7 +254,7 @@ REFLET_API RefletResult refletResetView(RefletView view);
  * pauses; one that goes on finds out by itself.
  */
 REFLET_API RefletResult refletFinishView(RefletView view);
-/** Bytes of device memory in use by the view's images and buffers. */
+/** Returns the bytes of device memory that the view's images and buffers use. */
 REFLET_API RefletResult refletViewMemory(RefletView view, uint64_t* bytes);
 
 /* ----------------------------------------------------------------------------------------------------- images --- */
@@ -263,17 +266,18 @@ REFLET_API RefletResult refletViewMemory(RefletView view, uint64_t* bytes);
  */
 typedef struct RefletImage {
     VkImage image;    /**< VK_NULL_HANDLE: absent */
-    VkImageView view; /**< of it: level `baseLevel` of layer `baseLayer` */
-    VkFormat format;  /**< of the view */
-    uint32_t width;   /**< of that level, in pixels */
-    uint32_t height;  /**< of that level, in pixels */
-    /** Now, of that level and layer. One that cannot be sampled is left for the time of the call, and restored. */
+    VkImageView view; /**< view of the image's level `baseLevel` and layer `baseLayer` */
+    VkFormat format;  /**< format of the view */
+    uint32_t width;   /**< width of that level in pixels */
+    uint32_t height;  /**< height of that level in pixels */
+    /** Current layout of that level and layer. The call leaves a layout that cannot be sampled, and restores it. */
     VkImageLayout layout;
-    /** That wrote it last; 0: a barrier has already made it visible to compute. docs/library.md: render passes. */
+    /** Stages that last wrote it; 0: a barrier has already made it visible to compute (docs/library.md: render passes).
+     */
     VkPipelineStageFlags2 stages;
-    VkAccessFlags2 access; /**< with which they wrote it */
-    uint32_t baseLayer;    /**< that the view shows, such as an eye's; barriers name no other */
-    uint32_t baseLevel;    /**< that the view shows; barriers name no other */
+    VkAccessFlags2 access; /**< accesses by which these stages wrote it */
+    uint32_t baseLayer;    /**< array layer that the view shows, such as an eye's; barriers name no other */
+    uint32_t baseLevel;    /**< mip level that the view shows; barriers name no other */
     /**
      * Pixels from the left and from the top to the rectangle that is read or written, which has the size of the frame,
      * or of the output where that is asked for. Not 0, 0: width and height may be larger than it. Must be 0, 0 in

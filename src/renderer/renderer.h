@@ -108,7 +108,7 @@ private:
     };
 
     std::optional<Asked> asked_;  ///< of the last frame
-    uint32_t framesBefore_ = 0;   ///< in which the picture has been what it is asked to be now
+    uint32_t framesBefore_ = 0;   ///< consecutive frames before this one with unchanged view and settings
     LightChange lightChange_;
     PreExposure preExposure_;
     std::optional<mat4> previousWorldToClip_;  ///< without jitter
