@@ -19,7 +19,7 @@ class RefletConan(ConanFile):
     package_type = "library"
     settings = "os", "compiler", "build_type", "arch"
     options = {"shared": [True, False], "fPIC": [True, False]}
-    default_options = {"shared": False, "fPIC": True}
+    default_options = {"shared": False, "fPIC": True, "spirv-cross/*:shared": True}
 
     def export_sources(self):
         root = os.path.join(self.recipe_folder, os.pardir, os.pardir)
