@@ -179,10 +179,12 @@ private:
         const Timed spending(spent_.writing);
         images.motion = traceMotion(job.timed.at(view.time), now, job.timed.at(before.time), was, size_);
         images.camera = imageCamera(now, size_);
-        const Settings settings = loadSettings(job.scene.options);
+        TonemapSettings tonemap = loadSettings(job.scene.options).tonemap;
+        if (tonemap.autoExposure == AutoExposure::files) {
+            tonemap.autoExposure = AutoExposure::on;  // random views may be dark also in scenes that suit 0
+        }
         images.exposure = static_cast<float>(
-            exposedAs(settings.tonemap, job.scene.scene, images.clean.final, images.clean.depth).exposure +
-            job.shot.exposure());
+            exposedAs(tonemap, job.scene.scene, images.clean.final, images.clean.depth).exposure + job.shot.exposure());
         files_.write(job.sceneIndex, job.frame, images, recordFor(job, now, was, images));
         ++made_;
     }
@@ -199,7 +201,7 @@ private:
                                                     : nlohmann::ordered_json();
         addView(record, now, was, size_);
         record["camera_tries"] = job.shot.tries();
-        record["environment"] = job.shot.environment();
+        record["environment"] = std::filesystem::path(job.shot.environment()).filename().string();
         record["exposure"] = images.exposure;
         record["clean"] = {{"spp", images.clean.samples},
                            {"noise", images.clean.noise},

@@ -91,14 +91,33 @@ public:
         return std::ranges::all_of(around(26), [&](const vec3& way) { return freeWay(rays_, at, way) > nearest; });
     }
 
-    Camera aimedFrom(const vec3& at, const Distribution& fov) {
+    // At what the scene's camera sees, which is what the scene is about, or in a quarter of the cases anywhere.
+    // nullopt: something is in between.
+    std::optional<vec3> target(const vec3& at) {
+        if (draws_.unit() < 0.25) {
+            vec3 ahead = draws_.direction();
+            ahead = glm::normalize(vec3(ahead.x, std::clamp(0.6F * ahead.y - 0.1F, -0.6F, 0.5F), ahead.z));
+            return at + ahead * std::min(freeWay(rays_, at, ahead), 4.0F * scale_);
+        }
+        const vec2 pixel = vec2(draws_.unit(), draws_.unit()) * vec2(size_);
+        const Ray ray = CameraRays(start_, size_).through(pixel);
+        const auto hit = rays_.intersect(ray, RayKind::camera);
+        if (!hit) {
+            return std::nullopt;
+        }
+        const vec3 seen = ray.origin + ray.direction * hit->distance;
+        const float away = glm::length(seen - at);
+        const bool visible = away > 0.0F && freeWay(rays_, at, (seen - at) / away) > 0.98F * away;
+        return visible ? std::optional(seen) : std::nullopt;
+    }
+
+    Camera aimedAt(const vec3& target, const vec3& at, const Distribution& fov) {
         Camera camera;
         camera.position = at;
         camera.near = start_.near;
         camera.fovY = glm::radians(static_cast<float>(fov.draw(draws_)));
-        vec3 ahead = draws_.direction();
-        ahead = glm::normalize(vec3(ahead.x, std::clamp(0.6F * ahead.y - 0.1F, -0.6F, 0.5F), ahead.z));
-        camera.target = at + ahead * std::min(freeWay(rays_, at, ahead), 4.0F * scale_);
+        const vec3 aside = draws_.direction() * 0.2F * glm::length(target - at);  // not always in the middle
+        camera.target = target + aside;
         return camera;
     }
 
@@ -154,8 +173,13 @@ std::optional<FoundCamera> findCamera(const RayScene& rays, const Camera& start,
         if (!at || !search.isFree(*at)) {
             continue;
         }
-        const Camera camera = search.aimedFrom(*at, fov);
-        if (const auto distance = search.sees(camera)) {
+        const auto target = search.target(*at);
+        if (!target) {
+            continue;
+        }
+        const Camera camera = search.aimedAt(*target, *at, fov);
+        const bool steep = std::abs(glm::normalize(camera.target - camera.position).y) > 0.95F;  // along its `up`
+        if (const auto distance = steep ? std::nullopt : search.sees(camera)) {
             return FoundCamera{camera, *distance, i};
         }
     }

@@ -28,7 +28,8 @@ struct FoundCamera {
 };
 
 /// A random walk in free space from `start`, which must be in it: so positions are never inside of objects, and stay
-/// where rays from the scene's own camera get to in three steps. Then a random direction. height: above the floor [m];
+/// where rays from the scene's own camera get to in three steps. It looks at something that `start` sees, in a quarter
+/// of the cases anywhere. height: above the floor [m];
 /// Kind::none: wherever the walk ends. fov: vertical, degrees. aspect: width over height. nullopt: none of the tries
 /// kept the limits.
 std::optional<FoundCamera> findCamera(const RayScene& rays, const Camera& start, float aspect,
