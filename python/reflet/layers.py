@@ -110,8 +110,9 @@ def check(frame):
     normal: largest deviation of a normal's length from 1.  finite: number of values that are no numbers.
     """
     def sum_error(layers):
-        scale = np.abs(layers["final"]).max(axis=-1, keepdims=True) + 0.01
-        return float((np.abs(recombine(layers) - layers["final"]) / scale).max())
+        whole = layers["unfiltered"] if "unfiltered" in layers else layers["final"]  # of presets: before antialiasing
+        scale = np.abs(whole).max(axis=-1, keepdims=True) + 0.01
+        return float((np.abs(recombine(layers) - whole) / scale).max())
 
     errors = {"finite": int(sum(np.count_nonzero(~np.isfinite(image)) for image in frame.values())),
               "sum": None, "noisy_sum": None, "motion": None}

@@ -250,7 +250,9 @@ const std::vector<Show>& table() {
          [](const FrameImages& i) { return Images{i.diffuse.source}; }, alpha, y, grey},
         {"specular_confidence", "confidence of the reflection rays only",
          [](const FrameImages& i) { return Images{i.specular.source}; }, alpha, y, grey},
-        {"hit_distance", "mean hit distance of the rays in metres: R diffuse, G specular; PNG bright is near",
+        {"hit_distance",
+         "mean hit distance of the rays in metres, of which one that hits nothing counts as 10000: R diffuse, G "
+         "specular; PNG bright is near",
          [](const FrameImages& i) {
              return Images{i.diffuse.radiance, i.specular.radiance};
          },

@@ -19,7 +19,7 @@ namespace reflet {
 struct NoisyImages {
     std::string name;                ///< "spp4", "plain"
     uint32_t samples = 0;            ///< per pixel; 0: of a preset
-    std::vector<ImageLayer> layers;  ///< final, direct, indirect_diffuse, indirect_specular, and albedo of a traced one
+    std::vector<ImageLayer> layers;  ///< final, direct, indirect_diffuse, indirect_specular; albedo or unfiltered
 };
 
 struct FrameImagesOut {

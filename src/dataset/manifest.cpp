@@ -129,6 +129,10 @@ void beginDataset(const DatasetOptions& o, const DatasetPlan& plan, const std::v
     for (const std::string& environment : environments) {
         names.push_back(fs::path(environment).filename().string());
     }
+    ordered_json settingsFiles = ordered_json::array();
+    for (const std::string& file : o.view.settingsFiles) {
+        settingsFiles.push_back(parseJsonFile(file));
+    }
     const ordered_json record{
         {"reflet", versionText},
         {"kind", "reflet dataset"},
@@ -156,6 +160,8 @@ void beginDataset(const DatasetOptions& o, const DatasetPlan& plan, const std::v
           {"exposure", o.exposure}}},
         {"clean", {{"spp", o.samples}, {"noise", o.noise}, {"clamp", o.clamp}}},
         {"noisy", o.noisy},
+        {"scene_index", o.view.sceneIndex.value_or(-1)},
+        {"settings_files", settingsFiles},
         {"settings", o.view.set},
         {"layout", o.layout},
         {"ldr", o.displayed},

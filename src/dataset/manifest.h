@@ -44,8 +44,8 @@ uint32_t traceSeed(uint32_t seed, uint32_t frame, uint32_t version);
 /// differences. Several processes may call it at once.
 void beginDataset(const DatasetOptions& options, const DatasetPlan& plan, const std::vector<std::string>& environments);
 
-/// Time, camera as in view files, matrices and sun. Both views posed. Matrices are lists of rows, for column vectors, from the
-/// coordinates of the scene's file.
+/// Time, camera as in view files, matrices and sun. Both views posed. Matrices are lists of rows, for column vectors,
+/// from the coordinates of the scene's file.
 void addView(nlohmann::ordered_json& record, const View& now, const View& before, uvec2 size);
 
 }  // namespace reflet

@@ -35,7 +35,7 @@ NoisyImages PresetFrames::renderOne(const Preset& preset, const Shot& shot, int 
     std::vector<ShowReadback> readbacks;
     const View view = shot.at(frame);
     renderer_.render(view, size_, seed, preset.settings, [&](gpu::Frame& f, const FrameImages& images) {
-        for (const char* name : {"final", "direct", "indirect_diffuse", "indirect_specular"}) {
+        for (const char* name : {"final", "unfiltered", "direct", "indirect_diffuse", "indirect_specular"}) {
             readbacks.push_back(requestShow(f, images, findShow(name)));
         }
     });
