@@ -1,6 +1,6 @@
 """OpenEXR files as Reflet writes them: one part of scan lines, without compression or with ZIP.
 
-Debian 12 has no Python module of OpenEXR, and OpenImageIO's brings 200 packages for these 150 lines. The format is that
+Debian 12 has no Python module of OpenEXR, and OpenImageIO's brings 100 packages for these 150 lines. The format is that
 of "OpenEXR File Layout", Academy Software Foundation, 2021.
 """
 

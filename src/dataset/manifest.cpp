@@ -131,7 +131,7 @@ void beginDataset(const DatasetOptions& o, const DatasetPlan& plan, const std::v
     }
     ordered_json settingsFiles = ordered_json::array();
     for (const std::string& file : o.view.settingsFiles) {
-        settingsFiles.push_back(parseJsonFile(file));
+        settingsFiles.push_back(ordered_json(parseJsonFile(file)));
     }
     const ordered_json record{
         {"reflet", versionText},
