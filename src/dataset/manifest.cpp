@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 namespace reflet {
 
@@ -75,6 +76,9 @@ DatasetPlan::DatasetPlan(const DatasetOptions& options) : frames_(options.frames
     checkNoisy(options);
     if (frames_ % burst_ != 0) {
         failUsage("--frames {}: must be a multiple of --burst {}", frames_, burst_);
+    }
+    if (std::isnan(options.noise) || std::isnan(options.clamp) || std::isnan(options.speed)) {  // no range refuses it
+        failUsage("--noise, --clamp and --speed must be numbers");
     }
     if (!(options.fps > 0.0 && options.fps <= 1e6)) {
         failUsage("--fps must be more than 0 and at most 1e6, is {:g}", options.fps);
