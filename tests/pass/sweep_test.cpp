@@ -360,6 +360,10 @@ TEST_P(SweepOfScene, IsSoundInEveryShowAndWithEveryPreset) {
 INSTANTIATE_TEST_SUITE_P(Scenes, SweepOfScene, testing::ValuesIn(sweptScenes()),
                          [](const auto& chosen) { return nameInTests(chosen.param); });
 
+TEST_F(Sweep, LayersAddUpWhereBlendedSurfacesAreAntialiasedApart) {
+    expectLayersAddUp(subject("panes").images(settingsOf({"temporal.enabled=true"}), 2), "panes");
+}
+
 TEST_F(Sweep, OddSizesDownToOnePixelWork) {
     const Scene scene = findBuiltinScene("cubes")->make();
     for (const uvec2 odd : {uvec2(1, 1), uvec2(1, 33), uvec2(37, 1), uvec2(13, 7)}) {
