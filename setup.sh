@@ -37,6 +37,7 @@ neededByTests=(
     "xvfb: a desktop for tests of the window"
     "xdotool: its mouse and keys"
     "spirv-tools: checks compiled shaders"
+    "python3-numpy: tests of the Python package"
     "vulkan-validationlayers: checks in tests that Vulkan is used as it wants to be"
 )
 

@@ -173,6 +173,23 @@ for name in cli_tests pass_tests pass_tests_tracing pass_tests_swiftshader pass_
     fault_tests fault_tests_second_driver shader_tests shader_tests_swiftshader reference_tests unit_tests gpu_compiler_tests; do
     [[ -z "${seconds[$name]-}" ]] || echo "$name: ${good[$name]} passed, ${bad[$name]} failed, ${seconds[$name]} s of one core"
 done
+# The Python package on a data set of the program.
+python=$(command -v /usr/bin/python3 python3 | head -n 1)
+if [[ "$filter" != "*" ]]; then
+    :
+elif [[ -n "$python" ]] && "$python" -c 'import numpy' 2>/dev/null; then
+    start=$SECONDS
+    REFLET_PROGRAM=$PWD/build/bin/reflet "$python" -m unittest discover -v -s python/tests >"$logs/python.log" 2>&1 || true
+    went=$(grep -c '\.\.\. ok$' "$logs/python.log" || true)
+    broke=$(grep -cE '\.\.\. (FAIL|ERROR)$|^ERROR: setUpClass' "$logs/python.log" || true)
+    ((went > 0)) || broke=$((broke + 1))
+    ((broke == 0)) || failures+=("python: see $logs/python.log")
+    passed=$((passed + went))
+    failed=$((failed + broke))
+    echo "python: $went passed, $broke failed, $((SECONDS - start)) s"
+else
+    echo "tests of the Python package are skipped: there is no NumPy (Debian: python3-numpy)"
+fi
 # The sanitized build of the fuzz targets takes minutes, and so do they.
 if [[ -n "${REFLET_FUZZ_SMOKE-}" ]]; then
     status=0

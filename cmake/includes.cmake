@@ -18,9 +18,10 @@ set(renderer base gpu lighting device scene noise shaders)
 set(capture ${renderer} effects renderer)
 set(job ${capture} capture reference)
 set(measure ${job} job compare)
-set(cli ${measure} measure)
+set(dataset ${job} job)
+set(cli ${measure} measure dataset)
 set(view ${cli} cli reflection)
-set(folders base scene noise compare reference shaders gpu reflection effects lighting api device renderer capture job measure cli view)
+set(folders base scene noise compare reference shaders gpu reflection effects lighting api device renderer capture job dataset measure cli view)
 
 # How effects feed one another is known to src/lighting alone. The renderer may include, of the effects, only:
 set(renderer_headers

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/exr_check.h"
 #include "base/file.h"
+#include "base/image_camera.h"
 #include "base/limits.h"
 #include "base/png_check.h"
 
@@ -14,6 +15,7 @@
 #include <ImfIO.h>
 #include <ImfInputFile.h>
 #include <ImfOutputFile.h>
+#include <ImfStandardAttributes.h>
 #include <ImfThreading.h>
 #include <half.h>
 
@@ -133,10 +135,25 @@ void configureOpenExr() {
     (void)once;
 }
 
-std::string encodeExr(std::span<const ImageLayer> layers) {
+/// Imath multiplies row vectors, so its rows are our columns.
+Imath::M44f imathMatrix(const mat4& m) {
+    Imath::M44f result;
+    for (int i = 0; i < 4; ++i) {
+        for (int j = 0; j < 4; ++j) {
+            result[i][j] = m[i][j];
+        }
+    }
+    return result;
+}
+
+std::string encodeExr(std::span<const ImageLayer> layers, const ImageCamera* camera) {
     configureOpenExr();
     Imf::Header header(static_cast<int>(layers[0].image.width), static_cast<int>(layers[0].image.height));
     header.compression() = Imf::ZIP_COMPRESSION;
+    if (camera) {
+        Imf::addWorldToCamera(header, imathMatrix(camera->worldToCamera));
+        Imf::addWorldToNDC(header, imathMatrix(camera->worldToNdc));
+    }
     Imf::FrameBuffer frameBuffer;
     std::vector<std::vector<half>> halfData(layers.size());
     for (size_t i = 0; i < layers.size(); ++i) {
@@ -238,6 +255,21 @@ std::vector<ImageLayer> decodeExr(std::string_view content) {
     return layers;
 }
 
+void writeEncoded(const std::filesystem::path& path, std::span<const ImageLayer> layers, const ImageCamera* camera) {
+    checkLayers(layers);
+    std::string content;
+    try {
+        content = encodeExr(layers, camera);
+    } catch (const std::logic_error&) {
+        throw;  // a failed check
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        fail("{}: cannot be encoded as EXR: {}", path.string(), exrReason(error));
+    }
+    writeFileAtomically(path, content);
+}
+
 // The last line is the last of the file, as all that writeExr writes are in increasing order.
 bool exrHasItsEnd(const std::filesystem::path& path) {
     configureOpenExr();
@@ -277,18 +309,11 @@ bool isWholeImage(const std::filesystem::path& path) {
 }
 
 void writeExr(const std::filesystem::path& path, std::span<const ImageLayer> layers) {
-    checkLayers(layers);
-    std::string content;
-    try {
-        content = encodeExr(layers);
-    } catch (const std::logic_error&) {
-        throw;  // a failed check
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& error) {
-        fail("{}: cannot be encoded as EXR: {}", path.string(), exrReason(error));
-    }
-    writeFileAtomically(path, content);
+    writeEncoded(path, layers, nullptr);
+}
+
+void writeExr(const std::filesystem::path& path, std::span<const ImageLayer> layers, const ImageCamera& camera) {
+    writeEncoded(path, layers, &camera);
 }
 
 std::vector<ImageLayer> readExr(const std::filesystem::path& path) {

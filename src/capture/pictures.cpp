@@ -5,6 +5,8 @@
 #include "base/image_file.h"
 #include "capture/texels.h"
 #include "effects/exposure/exposure.h"
+#include "renderer/view_params.h"
+#include "scene/image_camera.h"
 
 #include <nlohmann/json.hpp>
 
@@ -114,11 +116,12 @@ nlohmann::ordered_json Pictures::rayStatistics(const gpu::Frame& f, const ViewPa
     return json;
 }
 
-void Pictures::write(const std::string& file, const gpu::Frame& f, const ViewParams& view) const {
+void Pictures::write(const std::string& file, const gpu::Frame& f, const View& view, uvec2 size) const {
+    const ViewParams params = makeViewParams(view.camera, size, 0, 0);
     if (isExr(file)) {
-        writeExrFile(file, f, view);
+        writeExrFile(file, f, params, imageCamera(view, size));
     } else {
-        writePngFile(file, f, view);
+        writePngFile(file, f, params);
     }
 }
 
@@ -137,12 +140,13 @@ FloatImage Pictures::valuesOf(const Show& show, const gpu::Frame& f, const ViewP
 }
 
 // The --show image under plain channel names, so that every viewer opens it; then a named layer for each AOV.
-void Pictures::writeExrFile(const std::string& file, const gpu::Frame& f, const ViewParams& view) const {
+void Pictures::writeExrFile(const std::string& file, const gpu::Frame& f, const ViewParams& view,
+                            const ImageCamera& camera) const {
     std::vector<ImageLayer> layers{{"", valuesOf(*main_, f, view), PixelType::float32}};
     for (const Show* aov : aovs_) {
         layers.push_back({std::string(aov->name), valuesOf(*aov, f, view), PixelType::float32});
     }
-    writeExr(file, layers);
+    writeExr(file, layers, camera);
 }
 
 }  // namespace reflet

@@ -1,9 +1,11 @@
 // Writes the images of one frame that --show and --aov select, as PNG and EXR.
 #pragma once
 
+#include "base/image_camera.h"
 #include "capture/show.h"
 #include "device/frame.h"
 #include "renderer/frame.h"
+#include "scene/scene.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -52,13 +54,14 @@ public:
     /// Of the rays of each lobe: mean depth samples, and the fraction of screen-space hits. After the frame is done.
     [[nodiscard]] nlohmann::ordered_json rayStatistics(const gpu::Frame& f, const ViewParams& view) const;
 
-    /// Writes a .png or .exr file after the frame is done. Throws Error.
-    void write(const std::string& file, const gpu::Frame& f, const ViewParams& view) const;
+    /// Writes a .png or .exr file after the frame is done. view: posed. Throws Error.
+    void write(const std::string& file, const gpu::Frame& f, const View& view, uvec2 size) const;
 
 private:
     void writePngFile(const std::string& file, const gpu::Frame& f, const ViewParams& view) const;
     [[nodiscard]] FloatImage valuesOf(const Show& show, const gpu::Frame& f, const ViewParams& view) const;
-    void writeExrFile(const std::string& file, const gpu::Frame& f, const ViewParams& view) const;
+    void writeExrFile(const std::string& file, const gpu::Frame& f, const ViewParams& view,
+                      const ImageCamera& camera) const;
 
     const Show* main_ = nullptr;
     std::vector<const Show*> aovs_;

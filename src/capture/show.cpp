@@ -22,7 +22,7 @@ const Show& findShow(std::string_view name) {
 
 ShowReadback requestShow(gpu::Frame& f, const FrameImages& images, const Show& show) {
     const float scale = show.is(ShowProperty::radiance) ? 1.0F / images.view.preExposure : 1.0F;
-    ShowReadback readback{&show, show.images(images), {}, scale};
+    ShowReadback readback{&show, show.images(images), {}, scale, images.view};
     for (const gpu::Image& image : readback.images) {
         if (!image) {
             fail("image '{}' is not available with this scene and these settings: {}", show.name, show.description);
@@ -45,8 +45,8 @@ struct Decoded {
     }
 };
 
-void valuesOf(const ShowReadback& readback, std::span<const vec4> texels, const ViewParams& view, float* out) {
-    readback.show->values(texels, view, out);
+void valuesOf(const ShowReadback& readback, std::span<const vec4> texels, const ViewParams& view, vec2 uv, float* out) {
+    readback.show->values(texels, {view, readback.rendered, uv}, out);
     for (size_t i = 0; i < readback.show->channels.size(); ++i) {
         out[i] *= readback.scale;
     }
@@ -69,7 +69,7 @@ FloatImage fetchValues(const gpu::Frame& f, const ShowReadback& readback, const 
     for (uvec2 pixel(0); pixel.y < size.y; ++pixel.y) {
         for (pixel.x = 0; pixel.x < size.x; ++pixel.x, out += channels.size()) {
             std::ranges::transform(decoded, texels.begin(), [&](const Decoded& d) { return d.at(pixel, size); });
-            valuesOf(readback, texels, view, out);
+            valuesOf(readback, texels, view, (vec2(pixel) + 0.5F) / vec2(size), out);
         }
     }
     return values;
@@ -85,7 +85,7 @@ std::vector<float> fetchValue(const gpu::Frame& f, const ShowReadback& readback,
         texels.push_back(decodeTexels(image.format, at).front());
     }
     std::vector<float> values(readback.show->channels.size());
-    valuesOf(readback, texels, view, values.data());
+    valuesOf(readback, texels, view, (vec2(pixel) + 0.5F) / vec2(view.size), values.data());
     return values;
 }
 

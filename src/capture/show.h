@@ -23,13 +23,20 @@ constexpr ShowProperty operator|(ShowProperty a, ShowProperty b) {
     return static_cast<ShowProperty>(static_cast<uint8_t>(a) | static_cast<uint8_t>(b));
 }
 
+/// Where the values of a show are taken.
+struct ShownPixel {
+    const ViewParams& view;      ///< of the frame, perhaps without subpixel jitter
+    const ViewParams& rendered;  ///< as it was rendered, with the last frame's camera
+    vec2 uv;                     ///< of the pixel's centre
+};
+
 struct Show {
     std::string_view name;
     std::string_view description;  ///< meaning of the values, units and range
     /// Its images on the device; read back in this order.
     std::vector<gpu::Image> (*images)(const FrameImages&);
     /// Values from the decoded images (four channels each) at one pixel, into as many as `channels`.
-    void (*values)(std::span<const vec4> texels, const ViewParams& view, float* out);
+    void (*values)(std::span<const vec4> texels, const ShownPixel& at, float* out);
     std::vector<std::string> channels;
     /// From values to display RGB in 0..1 (already encoded). nullptr: uses the tone-mapped display image.
     vec3 (*picture)(const float* values);
@@ -50,7 +57,8 @@ struct ShowReadback {
     const Show* show = nullptr;
     std::vector<gpu::Image> images;
     std::vector<gpu::Readback> copies;
-    float scale = 1.0F;  ///< of the values
+    float scale = 1.0F;     ///< of the values
+    ViewParams rendered{};  ///< as the frame was rendered
 };
 
 /// Throws Error for an image that the frame's settings do not produce.

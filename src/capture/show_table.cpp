@@ -18,54 +18,62 @@ using Texels = std::span<const vec4>;
 using Images = std::vector<gpu::Image>;
 
 // From texels to values.
-void first(Texels t, const ViewParams&, float* out) {
+void first(Texels t, const ShownPixel&, float* out) {
     out[0] = t[0].x;
 }
 // Negative where no blocker was found: the magnitude is the upper bound of the width.
-void penumbraWidth(Texels t, const ViewParams&, float* out) {
+void penumbraWidth(Texels t, const ShownPixel&, float* out) {
     out[0] = std::max(t[0].x, 0.0F);
 }
-void cascade(Texels t, const ViewParams&, float* out) {
+void cascade(Texels t, const ShownPixel&, float* out) {
     out[0] = t[0].x * static_cast<float>(maxCascades - 1);
 }
-void firstTwo(Texels t, const ViewParams&, float* out) {
-    std::memcpy(out, t.data(), 2 * sizeof(float));
+// The G-buffer has no motion where there is no surface: there it is that of a direction, which turns with the camera.
+// An orthographic camera sees one direction everywhere.
+void motion(Texels t, const ShownPixel& at, float* out) {
+    vec2 moved(t[0]);
+    if (!(t[1].x > 0.0F) && at.rendered.eye.w != 0.0F) {
+        const vec4 ahead = at.rendered.clipToWorld * vec4(2.0F * at.uv - 1.0F, 0.0F, 1.0F);
+        const vec4 before = at.rendered.previousWorldToClip * vec4(vec3(ahead), 0.0F);
+        moved = before.w > 0.0F ? at.uv - (0.5F + 0.5F * vec2(before) / before.w) : vec2(0.0F);
+    }
+    std::memcpy(out, &moved, sizeof(moved));
 }
-void color(Texels t, const ViewParams&, float* out) {
+void color(Texels t, const ShownPixel&, float* out) {
     std::memcpy(out, t.data(), 3 * sizeof(float));
 }
 // As unpackBaseColor in gbuffer.glsl: stored as a square root.
-void squaredColor(Texels t, const ViewParams&, float* out) {
+void squaredColor(Texels t, const ShownPixel&, float* out) {
     const vec3 c = vec3(t[0]) * vec3(t[0]);
     std::memcpy(out, &c, sizeof(c));
 }
-void green(Texels t, const ViewParams&, float* out) {
+void green(Texels t, const ShownPixel&, float* out) {
     out[0] = t[0].y;
 }
-void blue(Texels t, const ViewParams&, float* out) {
+void blue(Texels t, const ShownPixel&, float* out) {
     out[0] = t[0].z;
 }
-void alpha(Texels t, const ViewParams&, float* out) {
+void alpha(Texels t, const ShownPixel&, float* out) {
     out[0] = t[0].w;
 }
-void bothAlphas(Texels t, const ViewParams&, float* out) {
+void bothAlphas(Texels t, const ShownPixel&, float* out) {
     out[0] = t[0].w;
     out[1] = t[1].w;
 }
-void bothFirsts(Texels t, const ViewParams&, float* out) {
+void bothFirsts(Texels t, const ShownPixel&, float* out) {
     out[0] = t[0].x;
     out[1] = t[1].x;
 }
-void meanColor(Texels t, const ViewParams&, float* out) {
+void meanColor(Texels t, const ShownPixel&, float* out) {
     const vec3 mean = 0.5F * vec3(t[0] + t[1]);
     std::memcpy(out, &mean, sizeof(mean));
 }
-void viewDistance(Texels t, const ViewParams& view, float* out) {
-    const vec4& d = view.depthToDistance;
+void viewDistance(Texels t, const ShownPixel& at, float* out) {
+    const vec4& d = at.view.depthToDistance;
     out[0] = t[0].x > 0.0F ? (d.x + d.y * t[0].x) / (d.z + d.w * t[0].x) : 0.0F;
 }
 // Where there is no surface (depth 0), a cleared normal would decode to +Z.
-void normal(Texels t, const ViewParams&, float* out) {
+void normal(Texels t, const ShownPixel&, float* out) {
     const vec3 n = t[1].x > 0.0F ? vec3(t[0]) : vec3(0.0F);
     std::memcpy(out, &n, sizeof(n));
 }
@@ -227,8 +235,12 @@ const std::vector<Show>& table() {
          [](const FrameImages& i) { return Images{i.g.material}; }, blue, y, grey},
         {"emissive", "emitted radiance", [](const FrameImages& i) { return Images{i.g.emissive}; }, color, rgb, encoded,
          radiance},
-        {"motion", "motion vector: uv minus uv in the previous frame; PNG 0.5 + 10 motion",
-         [](const FrameImages& i) { return Images{i.g.motion}; }, firstTwo, xy, offsets},
+        {"motion",
+         "motion vector: uv minus uv in the previous frame, of the sky as the camera turns; PNG 0.5 + 10 motion",
+         [](const FrameImages& i) {
+             return Images{i.g.motion, i.g.depth};
+         },
+         motion, xy, offsets},
         {"confidence", "fraction of the ray weight not left to the environment: R diffuse, G specular",
          [](const FrameImages& i) {
              return Images{i.diffuse.source, i.specular.source};
@@ -238,7 +250,9 @@ const std::vector<Show>& table() {
          [](const FrameImages& i) { return Images{i.diffuse.source}; }, alpha, y, grey},
         {"specular_confidence", "confidence of the reflection rays only",
          [](const FrameImages& i) { return Images{i.specular.source}; }, alpha, y, grey},
-        {"hit_distance", "mean hit distance of the rays in metres: R diffuse, G specular; PNG bright is near",
+        {"hit_distance",
+         "mean hit distance of the rays in metres, of which one that hits nothing counts as 10000: R diffuse, G "
+         "specular; PNG bright is near",
          [](const FrameImages& i) {
              return Images{i.diffuse.radiance, i.specular.radiance};
          },

@@ -1,6 +1,7 @@
 // Decodes read-back images.
 #include "capture/texels.h"
 
+#include "base/octahedral.h"
 #include "base/error.h"
 
 #include <glm/gtc/packing.hpp>
@@ -17,17 +18,6 @@ T loadAs(const std::byte* at) {
     T value{};
     std::memcpy(&value, at, sizeof(T));
     return value;
-}
-
-// As in octahedral.glsl.
-vec3 unpackUnitVector(uint32_t bits) {
-    const vec2 p = glm::unpackSnorm2x16(bits);
-    vec3 n(p, 1.0F - std::abs(p.x) - std::abs(p.y));
-    if (n.z < 0.0F) {
-        const vec2 side(p.x >= 0.0F ? 1.0F : -1.0F, p.y >= 0.0F ? 1.0F : -1.0F);
-        n = vec3((1.0F - glm::abs(vec2(p.y, p.x))) * side, n.z);
-    }
-    return glm::normalize(n);
 }
 
 vec4 decode(VkFormat format, const std::byte* at) {

@@ -9,6 +9,7 @@ namespace reflet {
 
 void addRenderCommand(CLI::App& app);
 void addReferenceCommand(CLI::App& app);
+void addDatasetCommand(CLI::App& app);
 void addCompareCommand(CLI::App& app);
 void addDefocusCommand(CLI::App& app);
 void addReportCommand(CLI::App& app);

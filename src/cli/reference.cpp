@@ -17,6 +17,8 @@
 #include "reference/sample_progress.h"
 #include "renderer/background/background.h"
 #include "renderer/scene_exposure/scene_exposure.h"
+#include "scene/image_camera.h"
+#include "scene/pose.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -87,12 +89,12 @@ std::vector<ImageLayer> layersOf(const ReferencePicture& picture, const Referenc
     return layers;
 }
 
-void writePicture(const TraceJob& job, const std::string& file, const ReferencePicture& picture,
+void writePicture(const TraceJob& job, const View& view, const std::string& file, const ReferencePicture& picture,
                   const TonemapSettings& tonemap) {
-    const Background& background = job.view.background;
+    const Background& background = view.background;
     const std::vector<std::string>& layers = job.command.layers;
     if (isExr(file)) {
-        writeExr(file, layersOf(picture, job.command, background));
+        writeExr(file, layersOf(picture, job.command, background), imageCamera(posed(view, job.scene), job.size));
     } else if (!layers.empty() && layers.front() != "final") {
         writePng(file, makePicture(findShow(layers.front()), chosenLayers(picture, job.command).front().image));
     } else {
@@ -122,7 +124,7 @@ void traceOne(const TraceJob& job) {
         tracePicture(job, job.view, job.options.seed, [&](const ReferenceProgress& now) { progress.set(now); });
     const TonemapSettings tonemap = exposedAs(job.settings.tonemap, job.scene, picture.final, picture.depth);
     for (const std::string& file : job.command.outputs) {
-        writePicture(job, file, picture, tonemap);
+        writePicture(job, job.view, file, picture, tonemap);
     }
     if (wasInterrupted(job, picture)) {
         fail("interrupted after {} of {} samples per pixel; {} {} the samples so far", picture.samples,
@@ -145,6 +147,9 @@ nlohmann::ordered_json makeRecord(const TraceJob& job, const FrameNames& names) 
                            {"sampling", c.sampling}, {"visible_only", o.visibleOnly},
                            {"pinhole", o.pinhole},   {"lambert_only", o.lambertOnly},
                            {"layers", c.layers}};
+    if (o.clamp > 0.0F) {
+        record["reference"]["clamp"] = o.clamp;
+    }
     if (o.ambientOcclusion) {
         record["reference"]["ao"] = {o.aoRadius, o.aoFalloff};
     }
@@ -172,7 +177,9 @@ void traceSequence(const TraceJob& job) {
         beginSequence(names, makeRecord(job, names), c.sequence.overwrite, printWarning);
     }
     const SequencePlan plan{.frames = c.frames};
-    const auto runs = plan.runs(parseShare(c.sequence.share), [&](uint32_t frame) { return files.isMissing(frame); });
+    const Share share = parseShare(c.sequence.share);
+    noteEmptyShare(plan, share);
+    const auto runs = plan.runs(share, [&](uint32_t frame) { return files.isMissing(frame); });
     Progress progress("tracing frame", plan.work(runs));
     uint32_t traced = 0;
     uint64_t rays = 0;
@@ -180,14 +187,15 @@ void traceSequence(const TraceJob& job) {
     for (const SequencePlan::Run& run : runs) {
         const auto missing = files.missing(run.begin);  // another process may have made some in the meantime
         if (!missing.empty()) {
+            const View view = views.of(run.begin);
             const ReferencePicture picture =
-                tracePicture(job, views.of(run.begin), frameSeed(job.options.seed, run.begin), [](const auto&) {});
+                tracePicture(job, view, frameSeed(job.options.seed, run.begin), [](const auto&) {});
             if (wasInterrupted(job, picture)) {
                 fail("interrupted after {} frames; run the same command again to continue", traced);
             }
             const TonemapSettings tonemap = exposedAs(job.settings.tonemap, job.scene, picture.final, picture.depth);
             for (const auto& file : missing) {
-                writePicture(job, file.string(), picture, tonemap);
+                writePicture(job, view, file.string(), picture, tonemap);
             }
             ++traced;
             rays += picture.rays;

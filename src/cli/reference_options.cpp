@@ -28,8 +28,8 @@ void checkNumbers(const ReferenceCommand& command, uvec2 size) {
     if (isNan(command.aoRadius) || isNan(command.aoFalloff)) {  // which no range refuses
         failUsage("{} must be a number, is 'nan'", isNan(command.aoRadius) ? "--ao-radius" : "--ao-falloff");
     }
-    if (std::isnan(command.noise)) {
-        failUsage("--noise must be a number, is '{}'", command.noise);
+    if (std::isnan(command.noise) || std::isnan(command.clamp)) {
+        failUsage("{} must be a number, is 'nan'", std::isnan(command.noise) ? "--noise" : "--clamp");
     }
 }
 
@@ -94,6 +94,13 @@ void addSamplingOptions(CLI::App& command, ReferenceCommand& options) {
     command.add_option("--noise", options.noise, "Stop when the noise falls below this (0.01: 1 %)")
         ->type_name("X")
         ->check(CLI::Range(0.0F, 10.0F));
+    command
+        .add_option("--clamp", options.clamp,
+                    "Largest luminance of a sample's indirect light; 0: none. Removes fireflies, and makes the image "
+                    "darker where they were")
+        ->type_name("X")
+        ->check(CLI::Range(0.0F, 1e6F))
+        ->capture_default_str();
     command
         .add_option("--filter", options.filter,
                     "Pixel filter. box: samples spread over the pixel; center: at its centre only, with aliased edges "
@@ -171,6 +178,7 @@ ReferenceOptions referenceOptions(const ReferenceCommand& command, const Setting
     options.bounces = command.bounces.value_or(ReferenceOptions::unlimited);
     options.samples = command.samples.value_or(command.noise > 0.0F ? largestSamples : standardSamples);
     options.noise = command.noise;
+    options.clamp = command.clamp;
     options.filter = command.filter == "box" ? PixelFilter::box : PixelFilter::center;
     options.diffuse = command.sampling == "cosine" ? DiffuseSampling::cosine : DiffuseSampling::uniform;
     options.visibleOnly = command.visibleOnly;

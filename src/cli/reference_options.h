@@ -26,6 +26,7 @@ struct ReferenceCommand {
     std::optional<uint32_t> bounces;
     std::optional<uint32_t> samples;
     float noise = 0.0F;
+    float clamp = 0.0F;
     std::string filter = "box";
     std::string sampling = "cosine";
     bool visibleOnly = false;

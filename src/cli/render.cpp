@@ -13,6 +13,7 @@
 #include "job/still.h"
 #include "renderer/history.h"
 #include "renderer/renderer.h"
+#include "scene/pose.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -48,9 +49,8 @@ void checkOutputs(const RenderOptions& options) {
 
 // Writes the last frame.
 void writePictures(const RenderJob& job) {
-    const ViewParams params = makeViewParams(job.view.camera, job.size, 0, job.options.scene.seed);
     for (const std::string& file : job.options.outputs) {
-        job.pictures.write(file, job.renderer.frame(), params);
+        job.pictures.write(file, job.renderer.frame(), posed(job.view, job.scene), job.size);
     }
 }
 

@@ -26,7 +26,7 @@ std::vector<const CLI::Option*> addSequenceOptions(CLI::App& command, SequenceOp
         all.push_back(command
                           .add_option("--segment", o.segment,
                                       "Sequences: frames rendered consecutively, starting from an empty history; 0: "
-                                      "all. Always 1 if the settings keep no history")
+                                      "all. Always 1 if the settings keep no history and no motion is written")
                           ->type_name("FRAMES")
                           ->capture_default_str());
         all.push_back(

@@ -82,6 +82,7 @@ std::vector<std::string> missingRequirements(VkPhysicalDevice device, const VkPh
     vkGetPhysicalDeviceFeatures2(device, &has.core);
     need(has.core.features.shaderStorageImageExtendedFormats != 0, "extended storage image formats");
     need(has.core.features.imageCubeArray != 0, "arrays of cube maps");
+    need(has.core.features.shaderClipDistance != 0, "clip distances");
     need(has.v12.scalarBlockLayout != 0, "scalar block layout");
     need(has.v12.timelineSemaphore != 0, "timeline semaphores");
     need(has.v13.dynamicRendering != 0, "dynamic rendering");
@@ -210,6 +211,7 @@ RequiredFeatures requiredFeatures() {
     RequiredFeatures required;
     required.core.features.shaderStorageImageExtendedFormats = VK_TRUE;
     required.core.features.imageCubeArray = VK_TRUE;
+    required.core.features.shaderClipDistance = VK_TRUE;
     required.v12.scalarBlockLayout = VK_TRUE;
     required.v12.timelineSemaphore = VK_TRUE;
     required.v13.dynamicRendering = VK_TRUE;

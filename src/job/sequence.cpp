@@ -9,6 +9,7 @@
 #include "job/sequence_record.h"
 #include "job/sequence_views.h"
 #include "renderer/history.h"
+#include "scene/pose.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -85,9 +86,8 @@ private:
         if (files.empty()) {
             return;
         }
-        const ViewParams params = makeViewParams(view.camera, job_.size, 0, seed());
         for (const std::filesystem::path& file : files) {
-            job_.pictures.write(file.string(), job_.renderer.frame(), params);
+            job_.pictures.write(file.string(), job_.renderer.frame(), posed(view, job_.scene), job_.size);
         }
         job_.timings.add(job_.renderer.frame().passTimes());
         ++written_;
@@ -117,7 +117,9 @@ bool renderSequence(const RenderJob& job) {
         beginSequence(names, makeRecord(job, plan, names), job.options.sequence.overwrite, printWarning);
     }
     const auto isMissing = [&](uint32_t frame) { return files.isMissing(frame); };
-    const auto runs = plan.runs(parseShare(job.options.sequence.share), isMissing);
+    const Share share = parseShare(job.options.sequence.share);
+    noteEmptyShare(plan, share);
+    const auto runs = plan.runs(share, isMissing);
     Progress progress("rendering frame", plan.work(runs));
     for (const SequencePlan::Run& run : runs) {
         writer.render(plan, run, progress);

@@ -62,6 +62,16 @@ std::vector<fs::path> SequenceFiles::missing(uint32_t frame) const {
     return files;
 }
 
+void noteEmptyShare(const SequencePlan& plan, Share share) {
+    if (const uint32_t segments = plan.segments(); share.index >= segments) {
+        printNote(fmt::format(
+            "--share {}/{}: nothing to do, because {} frames are {} segment{} of {}; at most that many shares have "
+            "work{}",
+            share.index + 1, share.count, plan.frames, segments, segments == 1 ? "" : "s", plan.segment,
+            plan.segment > 1 ? ": choose fewer, or a smaller --segment" : ""));
+    }
+}
+
 nlohmann::ordered_json commonRecord(const SceneOptions& scene, const SequenceOptions& sequence, uint32_t frames,
                                     const View& view) {
     const uvec2 size = parseSize(scene.size);

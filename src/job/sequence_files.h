@@ -5,6 +5,7 @@
 #include "job/scene_options.h"
 #include "job/sequence_names.h"
 #include "job/sequence_options.h"
+#include "job/sequence_plan.h"
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -31,6 +32,9 @@ private:
     std::vector<FrameNames> names_;
     uint32_t firstFrame_;
 };
+
+/// A note, if the share has no segment of the plan.
+void noteEmptyShare(const SequencePlan& plan, Share share);
 
 /// The part of the record that all sequences have: scene, view, size, seed, frame times, path.
 nlohmann::ordered_json commonRecord(const SceneOptions& scene, const SequenceOptions& sequence, uint32_t frames,

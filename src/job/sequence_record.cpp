@@ -56,6 +56,16 @@ std::vector<std::string> differences(const nlohmann::json& old, const nlohmann::
     return found;
 }
 
+void failIfDifferent(const std::string& what, const nlohmann::json& old, const nlohmann::json& now,
+                     const std::string& cure) {
+    if (const std::vector<std::string> found = differences(old, now); !found.empty()) {
+        constexpr size_t most = 3;
+        const auto shown = std::span(found).first(std::min(most, found.size()));
+        fail("{}: {}{}; {}", what, fmt::join(shown, "; "),
+             found.size() > most ? fmt::format(" and {} more", found.size() - most) : "", cure);
+    }
+}
+
 void compareRecords(const FrameNames& names, const ordered_json& record,
                     const std::function<void(const std::string&)>& warn) {
     nlohmann::json old = parseJsonFile(names.record());
@@ -69,13 +79,8 @@ void compareRecords(const FrameNames& names, const ordered_json& record,
     }
     old.erase("device");
     now.erase("device");
-    if (const std::vector<std::string> found = differences(old, now); !found.empty()) {
-        constexpr size_t most = 3;
-        const auto shown = std::span(found).first(std::min(most, found.size()));
-        fail("{}: its frames belong to another sequence: {}{}; remove them with --overwrite, or choose another name",
-             names.pattern(), fmt::join(shown, "; "),
-             found.size() > most ? fmt::format(" and {} more", found.size() - most) : "");
-    }
+    failIfDifferent(names.pattern() + ": its frames belong to another sequence", old, now,
+                    "remove them with --overwrite, or choose another name");
 }
 
 }  // namespace
@@ -112,6 +117,20 @@ ordered_json recordOf(const View& view) {
         }
     }
     return json;
+}
+
+void beginRecord(const fs::path& file, const ordered_json& record, const std::string& cure) {
+    const std::string text = jsonText(record, 2) + "\n";
+    std::error_code error;
+    fs::create_directories(file.parent_path(), error);
+    if (!fs::exists(file) && writeNewFile(file, text)) {
+        return;
+    }
+    const nlohmann::json old = parseJsonFile(file);
+    if (!old.is_object()) {
+        fail("{}: not a record: {}", file.string(), cure);
+    }
+    failIfDifferent(file.string() + ": its files belong to other options", old, parseJson(jsonText(record)), cure);
 }
 
 void beginSequence(const FrameNames& names, const ordered_json& record, bool overwrite,

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <filesystem>
 #include <functional>
 #include <string>
 
@@ -16,6 +17,10 @@ std::string sceneFingerprint(const std::string& scene);
 
 /// All values of a view.
 nlohmann::ordered_json recordOf(const View& view);
+
+/// Writes a record of what files depend on, or compares it with the existing one. Throws Error with the differences,
+/// which ends in `cure`. Several processes may call it at once.
+void beginRecord(const std::filesystem::path& file, const nlohmann::ordered_json& record, const std::string& cure);
 
 /// Writes the record of a new sequence, or checks it against the existing one, whose images are then kept. Throws Error
 /// with the differences, or if images exist without a record. `overwrite`: first removes all images of that name.

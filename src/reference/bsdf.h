@@ -42,6 +42,9 @@ public:
     /// 0.045, so that punctual lights have a highlight even in mirrors.
     [[nodiscard]] Reflection reflectLamp(const vec3& toLight) const;
 
+    /// Directional albedo of the specular layer toward the ray's origin.
+    [[nodiscard]] const vec3& specularAlbedo() const { return specularAlbedo_; }
+
     /// Samples a direction: `lobe` selects the lobe, u the direction in it; both in [0, 1). The weight is 0 if light
     /// from there does not arrive.
     [[nodiscard]] Scattered scatter(float lobe, const vec2& u) const;

@@ -48,6 +48,7 @@ struct PathTracer::Walk {
     SurfacePoint point;
     uint32_t vertex = 0;              ///< number of surfaces before this one
     uint32_t bounces = 0;             ///< of these, those that are no boundary of glass which the path went through
+    bool triedMirrors = false;        ///< from the surface before this one: see SunMirrors
     Media media;                      ///< on the side of the vertex that the ray comes from
     std::optional<uint32_t> channel;  ///< the only one that is left after glass that disperses light
     vec3 refractable{1.0F};           ///< factor on what the vertex refracts: 3 in the channel chosen there, or 1
@@ -98,6 +99,7 @@ PathTracer::PathTracer(const RayScene& rays, const View& view, uvec2 size, const
     : rays_(rays),
       camera_(view.camera, size),
       lights_(rays, view),
+      mirrors_(rays, -glm::normalize(view.sun.direction)),
       options_(options),
       glass_(!options.lambertOnly && std::ranges::any_of(rays.scene().materials, [](const Material& m) {
           return m.transmission.factor > 0.0F;
@@ -149,6 +151,10 @@ PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) cons
         if (spent && !(walk.point.transmission > 0.0F)) {
             break;
         }
+        walk.triedMirrors = !spent && lights_.hasSun() && mirrors_.startsFrom(walk.point);
+        if (walk.triedMirrors) {
+            addSunInMirrors(walk, bsdf);
+        }
         if (!spent) {
             addEmitters(walk, bsdf);
         }
@@ -161,8 +167,7 @@ PathSample PathTracer::trace(const vec2& place, const PixelSampler& random) cons
     return walk.out;
 }
 
-vec3 PathTracer::lit(Walk& walk, const LightSample& light) const {
-    const SurfacePoint& point = walk.point;
+vec3 PathTracer::lit(Walk& walk, const SurfacePoint& point, const LightSample& light) const {
     const vec3 origin = point.rayOrigin(light.toLight);
     Ray ray = walk.counted({origin, light.toLight});
     if (light.onSurface) {  // ends just off the emissive surface
@@ -190,10 +195,12 @@ void PathTracer::addLamps(Walk& walk, const Bsdf& bsdf) const {
     vec3 sum(0.0F);
     if (lights_.hasSun()) {
         const LightSample sun = lights_.drawSun(walk.pair(forSun));
-        const vec3 reflected = bsdf.reflectLamp(sun.toLight).sum() * sun.light;
+        const Reflection toOrigin = bsdf.reflectLamp(sun.toLight);
+        const bool known = walk.triedMirrors && mirrors_.isOnAny(walk.point);
+        const vec3 reflected = (known ? toOrigin.diffuse : toOrigin.sum()) * sun.light;
         const bool faces = glm::dot(sun.toLight, walk.point.geometricNormal) > 0.0F;
         const bool needed = (faces && first) || reflected != vec3(0.0F);
-        const vec3 visible = needed ? lit(walk, sun) : vec3(0.0F);
+        const vec3 visible = needed ? lit(walk, walk.point, sun) : vec3(0.0F);
         sum += reflected * visible;
         if (first) {
             walk.out.sunVisibility = luminance(visible);
@@ -203,13 +210,43 @@ void PathTracer::addLamps(Walk& walk, const Bsdf& bsdf) const {
         const LightSample lamp = lights_.drawLamp(walk.point, walk.pair(forLampAndLobe).x, walk.pair(forLampDisk));
         const vec3 reflected = bsdf.reflectLamp(lamp.toLight).sum() * lamp.light;
         if (reflected != vec3(0.0F)) {
-            sum += options_.lampShadows ? reflected * lit(walk, lamp) : reflected;
+            sum += options_.lampShadows ? reflected * lit(walk, walk.point, lamp) : reflected;
         }
     }
     if (first) {
         walk.out.direct += sum;
     } else {
         walk.addIndirect(sum);
+    }
+}
+
+// The sun over each flat mirror, in place of what paths that hit the mirror by chance would find.
+void PathTracer::addSunInMirrors(Walk& walk, const Bsdf& bsdf) const {
+    const LightSample sun = lights_.drawSun(walk.pair(forSun));
+    for (const vec4& plane : mirrors_.planes()) {
+        const vec3 n(plane);
+        const vec3 toMirror = glm::reflect(sun.toLight, n);
+        const Reflection r = bsdf.reflectLamp(toMirror);
+        if (glm::dot(plane, vec4(walk.point.position, 1.0F)) <= walk.point.clearance || glm::dot(toMirror, n) >= 0.0F ||
+            r.sum() == vec3(0.0F)) {
+            continue;
+        }
+        const auto hit = rays_.intersect(walk.counted({walk.point.rayOrigin(toMirror), toMirror}), RayKind::light);
+        if (!hit) {
+            continue;
+        }
+        const SurfacePoint mirror = surfaceAt(rays_, *hit, toMirror);
+        if (!SunMirrors::isOn(plane, mirror) || (options_.visibleOnly && !cameraSees(walk, mirror))) {
+            continue;
+        }
+        const vec3 light = sun.light * lit(walk, mirror, sun) * Bsdf(mirror, options_).specularAlbedo() *
+                           walk.media.transmittance(hit->distance);
+        if (walk.vertex == 0) {
+            walk.out.indirectDiffuse += r.diffuse * light;
+            walk.out.indirectSpecular += r.specular * light;
+        } else {
+            walk.addIndirect(r.sum() * light);
+        }
     }
 }
 
@@ -223,7 +260,7 @@ void PathTracer::addEmitters(Walk& walk, const Bsdf& bsdf) const {
         return;
     }
     Reflection r = bsdf.reflect(s.toLight);
-    if (r.sum() == vec3(0.0F) || lit(walk, s) == vec3(0.0F)) {
+    if (r.sum() == vec3(0.0F) || lit(walk, walk.point, s) == vec3(0.0F)) {
         return;
     }
     if (options_.visibleOnly && s.onSurface && !cameraSees(walk, surfaceAt(rays_, s.hit, s.toLight))) {

@@ -6,6 +6,7 @@
 #include "reference/lights.h"
 #include "reference/reference.h"
 #include "reference/sampler.h"
+#include "reference/sun_mirrors.h"
 
 namespace reflet {
 
@@ -43,17 +44,19 @@ private:
 
     [[nodiscard]] std::optional<SurfacePoint> firstSurface(const Ray& ray) const;
     void addLamps(Walk& walk, const Bsdf& bsdf) const;
+    void addSunInMirrors(Walk& walk, const Bsdf& bsdf) const;
     void addEmitters(Walk& walk, const Bsdf& bsdf) const;
     /// False if the path ends here. spent: it may only go on through glass.
     [[nodiscard]] bool step(Walk& walk, const Bsdf& bsdf, bool spent) const;
     [[nodiscard]] float ambientVisibility(Walk& walk) const;
     [[nodiscard]] bool cameraSees(Walk& walk, const SurfacePoint& point) const;
     /// Share of the sample's light that arrives; only light of the sun and lamps passes through glass.
-    [[nodiscard]] vec3 lit(Walk& walk, const LightSample& light) const;
+    [[nodiscard]] vec3 lit(Walk& walk, const SurfacePoint& point, const LightSample& light) const;
 
     const RayScene& rays_;
     CameraRays camera_;
     Lights lights_;
+    SunMirrors mirrors_;
     Environment behind_;  ///< what the camera sees where there is no surface
     ReferenceOptions options_;
     bool glass_;   ///< any surface of the scene is transmissive

@@ -61,6 +61,15 @@ struct PixelSum {
     }
 };
 
+// Both lobes by one factor, so that their hue and their shares stay.
+void limit(PathSample& sample, float most) {
+    const float bright = luminance(sample.indirectDiffuse + sample.indirectSpecular);
+    if (most > 0.0F && bright > most) {
+        sample.indirectDiffuse *= most / bright;
+        sample.indirectSpecular *= most / bright;
+    }
+}
+
 class Tracing {
 public:
     using Proceed = std::function<bool(const ReferenceProgress&)>;
@@ -124,7 +133,8 @@ private:
                 for (uint32_t i = first; i < first + count; ++i) {
                     const PixelSampler random(y * size_.x + x, options_.seed, i);
                     const vec2 inside = options_.filter == PixelFilter::center ? vec2(0.5F) : random.pair(0);
-                    const PathSample sample = tracer_.trace(vec2(x, y) + inside, random);
+                    PathSample sample = tracer_.trace(vec2(x, y) + inside, random);
+                    limit(sample, options_.clamp);
                     sum.add(sample);
                     rays += sample.rays;
                 }
@@ -227,33 +237,54 @@ std::vector<ImageLayer> ReferencePicture::layers() const {
     return all;
 }
 
+namespace {
+
+// Calls body where it may use that many threads, also more than there are cores; 0: one per core.
+template <class Body>
+void withThreads(unsigned threads, const Body& body) {
+    std::optional<tbb::global_control> allowed;
+    if (threads > 0) {
+        allowed.emplace(tbb::global_control::max_allowed_parallelism, threads);
+    }
+    tbb::task_arena arena(threads > 0 ? static_cast<int>(threads) : tbb::task_arena::automatic);
+    arena.execute(body);
+}
+
+void traceInto(ReferencePicture& picture, const RayScene& rays, const View& seen, uvec2 size,
+               const ReferenceOptions& options, const std::function<bool(const ReferenceProgress&)>& proceed) {
+    const PathTracer tracer(rays, seen, size, options);
+    (void)ggxAlbedo(1.0F, 1.0F);  // computes its table outside of the measured time
+    const auto start = std::chrono::steady_clock::now();
+    Tracing tracing(tracer, size, options, proceed);
+    tracing.run();
+    picture.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    gatherMeans(picture, size, tracing.sums(), options.ambientOcclusion);
+    traceCenters(picture, size, tracer);
+    picture.noise = tracing.noise();
+    picture.rays = tracing.rays();
+    picture.complete = !tracing.stopped();
+}
+
+}  // namespace
+
 ReferencePicture traceReference(const Scene& scene, const View& view, uvec2 size, const ReferenceOptions& options,
                                 const std::function<bool(const ReferenceProgress&)>& proceed) {
     REFLET_CHECK(size.x > 0 && size.y > 0 && options.samples > 0, "{}x{}, {} samples", size.x, size.y, options.samples);
     ReferencePicture picture;
-    // Allows more threads than there are cores.
-    std::optional<tbb::global_control> allowed;
-    if (options.threads > 0) {
-        allowed.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
-    }
-    tbb::task_arena arena(options.threads > 0 ? static_cast<int>(options.threads) : tbb::task_arena::automatic);
-    arena.execute([&] {
+    withThreads(options.threads, [&] {
         const bool stands = scene.nodes.empty();
         const Scene still = stands ? Scene{} : frozen(scene, view.time);
         const RayScene rays(stands ? scene : still);
-        const View seen = posed(view, scene);
-        const PathTracer tracer(rays, seen, size, options);
-        (void)ggxAlbedo(1.0F, 1.0F);  // computes its table outside of the measured time
-        const auto start = std::chrono::steady_clock::now();
-        Tracing tracing(tracer, size, options, proceed);
-        tracing.run();
-        picture.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        gatherMeans(picture, size, tracing.sums(), options.ambientOcclusion);
-        traceCenters(picture, size, tracer);
-        picture.noise = tracing.noise();
-        picture.rays = tracing.rays();
-        picture.complete = !tracing.stopped();
+        traceInto(picture, rays, posed(view, scene), size, options, proceed);
     });
+    return picture;
+}
+
+ReferencePicture traceReference(const RayScene& rays, const View& view, uvec2 size, const ReferenceOptions& options,
+                                const std::function<bool(const ReferenceProgress&)>& proceed) {
+    REFLET_CHECK(size.x > 0 && size.y > 0 && options.samples > 0, "{}x{}, {} samples", size.x, size.y, options.samples);
+    ReferencePicture picture;
+    withThreads(options.threads, [&] { traceInto(picture, rays, view, size, options, proceed); });
     return picture;
 }
 

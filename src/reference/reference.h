@@ -15,6 +15,8 @@
 
 namespace reflet {
 
+class RayScene;
+
 enum class PixelFilter : uint8_t {
     box,     ///< samples over the whole pixel
     center,  ///< all samples through the pixel's centre, as in rasterization
@@ -38,6 +40,9 @@ struct ReferenceOptions {
     float aoRadius = 1.0F;          ///< metres; occluders farther away do not count
     float aoFalloff = 0.0F;         ///< share of the radius, at its end, over which occluders fade out, 0 to 1
     bool pinhole = false;           ///< ignores the camera's lens
+    /// Largest luminance of the indirect light of a sample [W/(m² sr)], which is scaled down to it: removes fireflies,
+    /// and darkens what they would have lit. 0: none.
+    float clamp = 0.0F;
     uint32_t seed = 0;
     unsigned threads = 0;  ///< 0: one per core; does not affect the result
 };
@@ -77,6 +82,10 @@ struct ReferencePicture {
 /// `proceed` is called periodically, from one thread at a time; when it returns false, rendering stops as soon as every
 /// pixel has a sample. The result is deterministic for the same scene, view, size, samples and seed.
 ReferencePicture traceReference(const Scene& scene, const View& view, uvec2 size, const ReferenceOptions& options,
+                                const std::function<bool(const ReferenceProgress&)>& proceed = {});
+
+/// The same for several images of a scene at one time, which is built once. view: posed. `seconds` is without building.
+ReferencePicture traceReference(const RayScene& rays, const View& view, uvec2 size, const ReferenceOptions& options,
                                 const std::function<bool(const ReferenceProgress&)>& proceed = {});
 
 }  // namespace reflet

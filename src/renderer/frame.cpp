@@ -89,6 +89,9 @@ lighting::Light withoutNoise(gpu::PassList& f, FrameStore& own, const FrameInput
     front.followedMotion = blended.motion;
     front = lighting::antialias(f, own.blended, context, settings, front, to);
     out.lit = blendAntialiased(f, front.lit, front.coverage, out.lit);
+    out.direct = light.direct;  // with the blended surfaces, as `unfiltered`
+    out.indirectDiffuse = light.indirectDiffuse;
+    out.indirectSpecular = light.indirectSpecular;
     out.antialiased = out.lit;
     out.unfiltered = lighting::unfilteredOf(light);
     out.translucent = light.translucent;

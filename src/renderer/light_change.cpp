@@ -27,7 +27,7 @@ float LightChange::update(const LampBlock& lamps, const View& view) {
     Lights now{{{squaredSunDistance * view.sun.irradiance, vec3(0.0F), -view.sun.direction}}, view.environment};
     for (uint32_t i = 0; i < lamps.count; ++i) {
         const LampParams& lamp = lamps.lamps[i];
-        const bool sun = lamp.type == lampDirectional;
+        const bool sun = lamp.type == lampDirectional || lamp.type == lampReflected;
         now.all.push_back({(sun ? squaredSunDistance : 1.0F) * lamp.intensity, lamp.position, lamp.toLamp});
     }
     float changed = 0.0F;

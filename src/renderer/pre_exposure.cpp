@@ -50,6 +50,9 @@ float irradianceFrom(const LampParams& lamp, const vec3& at) {
     if (lamp.type == lampDirectional) {
         return intensity;
     }
+    if (lamp.type == lampReflected) {
+        return 0.0F;  // less than the sun itself brings
+    }
     const vec3 away = lamp.position - at;
     const float distance = glm::length(away);
     const bool outside = distance * lamp.inverseRange >= 1.0F ||

@@ -9,6 +9,7 @@
 #include "renderer/draw_shadows/lamp_shadow_maps.h"
 #include "renderer/history.h"
 #include "renderer/probe/place_probes.h"
+#include "renderer/reflected_suns.h"
 #include "renderer/scene_exposure/scene_exposure.h"
 #include "scene/background.h"
 
@@ -19,6 +20,9 @@
 namespace reflet {
 
 namespace {
+
+// What moves changes the light around it, which the lights do not tell.
+constexpr float movedChange = 0.2F;
 
 void addLamps(LampBlock& block, const std::vector<Lamp>& lamps) {
     for (const Lamp& lamp : lamps) {
@@ -55,7 +59,7 @@ void Renderer::pose(const View& view) {
 
 LampShadows Renderer::planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings) {
     for (uint32_t i = 0; i < lamps.count; ++i) {
-        if (lamps.lamps[i].type == lampEmitter) {
+        if (lamps.lamps[i].type == lampEmitter || lamps.lamps[i].type == lampReflected) {
             continue;
         }
         lamps.lamps[i].radius = view.lampRadius.value_or(lamps.lamps[i].radius);
@@ -65,7 +69,25 @@ LampShadows Renderer::planLamps(LampBlock& lamps, const View& view, const Shadow
     }
     // Images larger than that are more memory (1 GiB) than shadows of lamps are worth.
     const uint32_t largestSide = std::min(frame_.device().limits().maxImageDimension2D, 16384U);
-    return planLampShadows(lamps, settings, largestSide, [&](const std::string& text) { warnOnce(text); });
+    const LampShadows shadows =
+        planLampShadows(lamps, settings, largestSide, glm::length(scene_.draws().boundsW.size()),
+                        [&](const std::string& text) { warnOnce(text); });
+    for (uint32_t i = 0; i < lamps.count; ++i) {
+        if (lamps.lamps[i].type == lampReflected && lamps.lamps[i].shadow == noLampShadow &&
+            settings.filter != ShadowFilter::traced) {
+            lamps.lamps[i].intensity = vec3(0.0F);
+        }
+    }
+    return shadows;
+}
+
+void Renderer::addReflectedSuns(LampBlock& lamps, const View& view, const Settings& settings) const {
+    for (const LampParams& sun : reflectedSuns(posedPieces_, -view.sun.direction, view.sun.irradiance,
+                                               view.sun.angularDiameter, mostReflectedSuns(settings))) {
+        if (lamps.count < maxLamps) {
+            lamps.lamps[lamps.count++] = sun;
+        }
+    }
 }
 
 std::vector<Mirror> Renderer::planMirrors(const View& view, const ViewParams& params, const Settings& settings) {
@@ -226,8 +248,11 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
     View shown = posed(asked, source_);
     std::vector<Lamp> otherSuns;
     View view = withSuns(shown, settings, otherSuns);
+    const double posedBefore = pose_ ? pose_->time : -1.0;
     pose(view);
+    const bool moved = posedBefore >= 0.0 && pose_->time != posedBefore;
     LampBlock lamps = scene_.lamps(lightsByEmitters(settings));
+    addReflectedSuns(lamps, view, settings);
     const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
     addLamps(lamps, otherSuns);
     const float lightChange = lightChange_.update(lamps, view);
@@ -273,6 +298,9 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
         Lens{view.camera.apertureRadius, view.camera.focusDistance, view.camera.blades, view.camera.bladeRotation}};
     previousTime_ = asked.time;
     inputs.probes = probes_.update(frame_, inputs, probesOf(view, settings.probes), settings);
+    if (traced != nullptr) {
+        inputs.cache = cache_.update(frame_, settings.radianceCache, std::max(lightChange, moved ? movedChange : 0.0F));
+    }
     if (stop_) {
         frame_.runPassByPass(stop_);
     }

@@ -54,6 +54,7 @@ private:
     void pose(const View& view);
     /// Radii that the view gives; who casts a shadow. Warns, but only once of the same.
     LampShadows planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings);
+    void addReflectedSuns(LampBlock& lamps, const View& view, const Settings& settings) const;
     /// Multiplies the lights by the pre-exposure, and returns it.
     float preExpose(LampBlock& lamps, View& view);
     /// Discards all images of light of earlier frames.
@@ -93,6 +94,7 @@ private:
     std::shared_ptr<const FloatImage> blurred_;
     VolumeFinder volumes_;
     Probes probes_;
+    RadianceCache cache_;
     std::vector<Probe> placed_;
     std::optional<uint32_t> placedCount_;  ///< that placed_ were asked for
     std::function<void(const std::string&)> warn_;

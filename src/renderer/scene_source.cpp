@@ -46,7 +46,7 @@ void traceSceneFallback(gpu::PassList& f, Rays& rays, const ViewInputs& in, cons
     const ProbeMaps none;
     traceScene(f, rays,
                {*in.traced, screen, seen.shadowMap, in.ggxTable, in.blueNoise, in.environment, in.lamps,
-                all ? in.probes : none},
+                all ? in.probes : none, all ? in.cache : CacheBuffers{}},
                sunShadowsAtHits(settings, seen),
                {.own = rays.from.view,
                 .view = in.view,
@@ -59,7 +59,8 @@ void traceSceneFallback(gpu::PassList& f, Rays& rays, const ViewInputs& in, cons
                 .diffuseOnly = scattering.diffuseOnly ? 1U : 0U,
                 .mips = settings.materials.mips,
                 .fromPrevious = previous ? 1U : 0U,
-                .firstRay = rays.firstRay});
+                .firstRay = rays.firstRay,
+                .cellSize = settings.radianceCache.cellSize});
 }
 
 }  // namespace reflet

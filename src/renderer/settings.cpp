@@ -42,6 +42,7 @@ SettingTable makeTable() {
     table.add<DirectSettings>("direct", offsetIn<Settings>(&Settings::direct));
     table.add<TraceScreenSettings>("trace_screen", offsetIn<Settings>(&Settings::traceScreen));
     table.add<TraceSceneSettings>("trace_scene", offsetIn<Settings>(&Settings::traceScene));
+    table.add<RadianceCacheSettings>("radiance_cache", offsetIn<Settings>(&Settings::radianceCache));
     table.add<ProbesSettings>("probes", offsetIn<Settings>(&Settings::probes));
     table.add<PlanarSettings>("planar", offsetIn<Settings>(&Settings::planar));
     table.add<LiveSettings>("live", offsetIn<Settings>(&Settings::live));
@@ -98,10 +99,20 @@ bool tracesScene(const Settings& settings) {
     return settings.traceScene.enabled != 0 || settings.shadow.filter == ShadowFilter::traced;
 }
 
+namespace {
+
+bool lampsCastShadows(const ShadowSettings& shadow) {
+    return shadow.filter == ShadowFilter::traced || (shadow.filter != ShadowFilter::none && shadow.lamps > 0);
+}
+
+}  // namespace
+
 bool lightsByEmitters(const Settings& settings) {
-    const bool shadows = settings.shadow.filter == ShadowFilter::traced ||
-                         (settings.shadow.filter != ShadowFilter::none && settings.shadow.lamps > 0);
-    return settings.direct.emitters != 0 && settings.diffuse.rays > 0 && shadows;
+    return settings.direct.emitters != 0 && settings.diffuse.rays > 0 && lampsCastShadows(settings.shadow);
+}
+
+uint32_t mostReflectedSuns(const Settings& settings) {
+    return settings.materials.lambertOnly == 0 && lampsCastShadows(settings.shadow) ? settings.direct.reflectedSuns : 0;
 }
 
 const SettingTable& settingTable() {

@@ -11,6 +11,7 @@
 #include "renderer/draw_gbuffer/draw_gbuffer.h"
 #include "renderer/glass/glass.h"
 #include "renderer/live/live_picture.h"
+#include "renderer/radiance_cache/radiance_cache.h"
 #include "renderer/trace_scene/trace_scene.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -27,6 +28,7 @@ struct Settings : LightingSettings {
     DepthSettings depth;
     DirectSettings direct;
     TraceSceneSettings traceScene;
+    RadianceCacheSettings radianceCache;
     ProbesSettings probes;
     PlanarSettings planar;
     LiveSettings live;
@@ -41,6 +43,9 @@ bool tracesScene(const Settings& settings);
 
 /// Whether lamps stand for emitters: diffuse rays are to leave out what these emit, and lamps to have shadows.
 bool lightsByEmitters(const Settings& settings);
+
+/// How many reflected suns there may be: with shadows only.
+uint32_t mostReflectedSuns(const Settings& settings);
 
 const SettingTable& settingTable();
 

@@ -77,7 +77,7 @@ bool lampReaches(LampParams lamp, TileBounds tile, vec4 viewPlane) {
     if (lamp.inverseRange > 0.0 && !rangeReaches(lamp.position, 1.0 / lamp.inverseRange + slack, tile, viewPlane)) {
         return false;
     }
-    return lamp.type != lampSpot || coneReaches(lamp, tile.center, tile.radius + slack);
+    return (lamp.type != lampSpot && lamp.type != lampReflected) || coneReaches(lamp, tile.center, tile.radius + slack);
 }
 
 #endif

@@ -178,7 +178,7 @@ void Session::screenshot(const ViewerState& state, uvec2 size, const std::string
     if (!made) {
         fail("image '{}' is not available with this scene and these settings", state.show);
     }
-    pictures.write(file, renderer.frame(), makeViewParams(view.camera, size, 0, state.source.seed));
+    pictures.write(file, renderer.frame(), posed(view, scene), size);
 }
 
 Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {

@@ -45,6 +45,18 @@ TEST_F(ReferenceOptions, EachBounceBringsMoreLight) {
     EXPECT_GE(mean(traced("builtin:cornell", {"--spp", "8"})[""]), before);  // with no limit
 }
 
+TEST_F(ReferenceOptions, AClampBoundsTheIndirectLightOfSamples) {
+    const Images free = traced("builtin:cornell", {"--spp", "4"});
+    const Images bound = traced("builtin:cornell", {"--spp", "4", "--clamp", "0.05"});
+    EXPECT_EQ(bound.at("direct").data, free.at("direct").data);
+    EXPECT_GT(*std::ranges::max_element(free.at("indirect_diffuse").data), 0.1F);
+    const FloatImage& diffuse = bound.at("indirect_diffuse");
+    for (size_t i = 0; i < diffuse.data.size(); i += 3) {
+        const float* c = &diffuse.data[i];
+        EXPECT_LE(0.2126F * c[0] + 0.7152F * c[1] + 0.0722F * c[2], 0.0501F);
+    }
+}
+
 TEST_F(ReferenceOptions, APinholeIgnoresTheLensAndAnUnknownFocusIsRefused) {
     const auto picture = [&](const Arguments& more) { return traced(cubes, more).at("").data; };
     const std::vector<float> sharp = picture({"--spp", "1"});

@@ -186,6 +186,13 @@ TEST_F(ReferenceSequence, AnEnvironmentWithoutAShareIsAUsageError) {
 }
 
 // Neither waits for the other, and what both write is whole.
+TEST_F(ReferenceSequence, AShareWithoutFramesSaysSo) {
+    const Outcome outcome = run(orbit("a_##.exr", {"--share", "5/6"}));
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_NE(outcome.err.find("--share 5/6: nothing to do, because 4 frames are 4 segments of 1"), std::string::npos)
+        << outcome.err;
+}
+
 TEST_F(ReferenceSequence, TwoProcessesMayHaveTheSameShare) {
     const auto same = [](const std::string& output) {
         return arguments(cubes, {"--spp", "8", "--frames", "40", "-o", output});

@@ -196,7 +196,7 @@ TEST(LampShadow, IsCastByTheStrongestAndTheOthersShineThroughEverythingWithAWarn
         settings.lamps = most;
         settings.lampResolution = resolution;
         const LampShadows shadows =
-            planLampShadows(changed, settings, largestSide, [&](const std::string& text) { warnings.push_back(text); });
+            planLampShadows(changed, settings, largestSide, 0.0F, [&](const std::string& text) { warnings.push_back(text); });
         std::vector<uint32_t> indices;
         for (uint32_t i = 0; i < lamps.count; ++i) {
             indices.push_back(changed.lamps[i].shadow);

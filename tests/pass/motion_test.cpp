@@ -104,6 +104,27 @@ TEST(Motion, OfATurningWallUnderAMovingCameraIsThatOfItsPoints) {
     expectSilentValidation("a turning wall");
 }
 
+// The camera turns to the side and moves on, which the sky does not show.
+TEST(Motion, OfTheSkyIsThatOfItsDirections) {
+    const Scene scene;
+    View before = viewAt(0);
+    View now = viewAt(0, {0.2F, 0.1F, 3.1F}, {0.5F, 0.2F, 0});
+    const Pictures p = renderMoved(scene, before, now, size, settingsOf(plainly), {"motion", "depth"});
+    for (unsigned y = 2; y < size.y; y += 5) {
+        for (unsigned x = 2; x < size.x; x += 5) {
+            ASSERT_FALSE(p.hasSurface(x, y));
+            const vec2 ndc = 2.0F * (vec2(x, y) + 0.5F) / vec2(size) - 1.0F;
+            const vec4 ahead = p.view.clipToWorld * vec4(ndc, 0.5F, 1.0F);
+            const vec3 direction = glm::normalize(vec3(ahead) / ahead.w - now.camera.position);
+            const vec2 expected = motionOf(now, before, now.camera.position + 1e6F * direction,
+                                           before.camera.position + 1e6F * direction);
+            EXPECT_NEAR(p.value("motion", x, y, 0), expected.x, 1e-5F);
+            EXPECT_NEAR(p.value("motion", x, y, 1), expected.y, 1e-5F);
+        }
+    }
+    EXPECT_GT(rangeOf(p.images.at("motion")).max, 0.01F) << "the camera turns";
+}
+
 // Two walls: the left one hangs from a joint that stands, the right one from one that slides by (0, 0.5, 0) in 1 s.
 Scene skinnedWalls() {
     Scene scene =

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace reflet::test::sweep_test {
@@ -34,6 +35,22 @@ void expectSound(const Images& images, const std::string& during) {
         }
     }
     expectSilentValidation(during);
+}
+
+// The contract of layers (docs/datasets.md): the light before temporal antialiasing is the sum of its parts, up to the
+// rounding of half floats. Values that are near the largest half float are clamped one by one.
+void expectLayersAddUp(const Images& images, const std::string& during) {
+    const std::vector<float>& all = images.at("unfiltered").data;
+    const std::vector<float>& direct = images.at("direct").data;
+    const std::vector<float>& diffuse = images.at("indirect_diffuse").data;
+    const std::vector<float>& specular = images.at("indirect_specular").data;
+    ASSERT_EQ(all.size(), direct.size()) << during;
+    size_t off = 0;
+    for (size_t i = 0; i < all.size(); ++i) {
+        const float sum = direct[i] + diffuse[i] + specular[i];
+        off += std::abs(all[i] - sum) > 0.002F * (sum + 1e-3F) && sum < 3e4F ? 1 : 0;
+    }
+    EXPECT_EQ(off, 0U) << during << ": values of the layers do not add up";
 }
 
 // A scene that is set up once and rendered with many settings, each time as if for the first time.
@@ -334,12 +351,18 @@ TEST_P(SweepOfScene, IsSoundInEveryShowAndWithEveryPreset) {
         // These two cost most of the time; their ends are swept apart, and presets name anisotropy for speed alone.
         settings.probes.resolution = 16;
         settings.materials.anisotropy = 1;
-        expectSound(scene.images(settings), preset.name);
+        const Images ofPreset = scene.images(settings);
+        expectSound(ofPreset, preset.name);
+        expectLayersAddUp(ofPreset, preset.name);
     }
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SweepOfScene, testing::ValuesIn(sweptScenes()),
                          [](const auto& chosen) { return nameInTests(chosen.param); });
+
+TEST_F(Sweep, LayersAddUpWhereBlendedSurfacesAreAntialiasedApart) {
+    expectLayersAddUp(subject("panes").images(settingsOf({"temporal.enabled=true"}), 2), "panes");
+}
 
 TEST_F(Sweep, OddSizesDownToOnePixelWork) {
     const Scene scene = findBuiltinScene("cubes")->make();

@@ -1,6 +1,8 @@
 // Shadows of point and spot lamps: shadow maps in one atlas, looked up per pixel (hard, PCF, PCSS). Shared by C++ and
 // GLSL.
 //
+// A reflected sun has one tile, of what is between its mirror and the surfaces, and of what is between the sun and the
+// mirror, as the mirror shows it.
 // A spot has one tile that covers its cone; a point lamp, or a spot wider than 60 degrees to each side, six: the faces
 // of a cube. Every tile is a perspective view from the lamp. Directional lamps besides the sun cast no shadows.
 #ifndef REFLET_EFFECTS_LAMP_SHADOW_H
@@ -40,8 +42,12 @@ struct LampShadows {
     LampShadow lamps[maxShadowedLamps];
 };
 
+// Flag of a draw into a tile: mirrored in LampTileParams::mirror.
+const uint reflectedInTile = 0x80000000u;
+
 struct LampTileParams {
     mat4 worldToTile[maxShadowedLamps * cubeFaces];  // into clip space
+    vec4 mirror[maxShadowedLamps];  // of a lamp that is a reflected sun: plane of its mirror; else 0
 };
 
 struct LampVisibilityParams {

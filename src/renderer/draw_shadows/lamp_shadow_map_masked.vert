@@ -1,10 +1,7 @@
 // Shadow maps of lamps, alpha-tested draws.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
-#include "effects/shadow/lamp_shadow.h"
-
-layout(scalar) uniform ParamsBlock { LampTileParams params; };
-layout(push_constant, scalar) uniform DrawBlock { mat4x3 objectToWorld; uint tile; } draw;
+#include "renderer/draw_shadows/lamp_tile.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec2 uv0;
@@ -15,7 +12,7 @@ layout(location = 0) out vec4 uv;
 layout(location = 1) out vec4 vertexColor;
 
 void main() {
-    gl_Position = params.worldToTile[draw.tile] * vec4(draw.objectToWorld * vec4(position, 1.0), 1.0);
+    placeInTile(position);
     uv = vec4(uv0, uv1);
     vertexColor = color;
 }

@@ -1,12 +1,14 @@
 // Plans and records the lamps' shadow maps.
 #include "renderer/draw_shadows/lamp_shadow_maps.h"
 
+#include "base/octahedral.h"
 #include "gpu/context.h"
 #include "renderer/draw_shadows/emitter_groups.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <vector>
 
@@ -30,11 +32,17 @@ std::vector<uint32_t> casters(const LampBlock& lamps) {
         }
     }
     std::ranges::stable_sort(indices, std::greater<>(), [&](uint32_t i) { return strength(lamps.lamps[i]); });
+    // First, as there are few, and as they are nothing without their shadows.
+    for (uint32_t i = lamps.count; i-- > 0;) {
+        if (lamps.lamps[i].type == lampReflected && strength(lamps.lamps[i]) > 0.0F) {
+            indices.insert(indices.begin(), i);
+        }
+    }
     return indices;
 }
 
 bool hasOneTile(const LampParams& lamp) {
-    return lamp.type == lampSpot && lamp.cosOuter > std::cos(glm::radians(widestSpot));
+    return lamp.type == lampReflected || (lamp.type == lampSpot && lamp.cosOuter > std::cos(glm::radians(widestSpot)));
 }
 
 // index: in the block, of a lamp that is lit wherever this one is.
@@ -58,6 +66,28 @@ LampShadow shadowOf(const LampParams& lamp, uint32_t index, uint32_t firstTile, 
             (tangent + (lamp.radius > 0.0F ? lampSearchTangent : 0.0F)) * (1.0F + 4.0F / static_cast<float>(tileSize));
     }
     return shadow;
+}
+
+// Of a reflected sun: a beam as wide as its mirror. What is farther from the mirror than `reach` casts no shadow.
+LampShadow beamOf(const LampParams& lamp, uint32_t index, uint32_t tile, uint32_t tileSize, float reach) {
+    LampShadow shadow = shadowOf(lamp, index, tile, tileSize);
+    const float away = -1.0F / lamp.inverseRange;
+    shadow.near = std::max(0.5F * away, away - reach);
+    const float half = away / (2.0F * reflectedSunFar);  // of the mirror's diagonal
+    const float penumbra = 2.0F * lamp.radius * std::min(reach / away, 1.0F);
+    shadow.halfTangent = (half + penumbra) / shadow.near * (1.0F + 4.0F / static_cast<float>(tileSize));
+    return shadow;
+}
+
+// Slightly in front of the mirror, which itself casts no shadow.
+vec4 mirrorOf(const LampParams& lamp) {
+    if (lamp.type != lampReflected) {
+        return vec4(0.0F);
+    }
+    const float away = -1.0F / lamp.inverseRange;
+    const vec3 n = unpackUnitVector(std::bit_cast<uint32_t>(lamp.spotOffset));
+    const float tolerance = 1e-3F * away / reflectedSunFar;
+    return {n, -glm::dot(n, lamp.position - away * lamp.toLamp) - tolerance};
 }
 
 // Rows are the tile's axes.
@@ -86,6 +116,21 @@ float distanceTo(const Aabb& box, const vec3& p) {
     return glm::distance(p, glm::clamp(p, box.min, box.max));
 }
 
+void pushTile(const gpu::DrawCommands& to, const uvec2& tileAndLamp) {
+    to.context.vk.vkCmdPushConstants(to.commands, to.layout, VK_SHADER_STAGE_ALL, sizeof(glm::mat4x3),
+                                     sizeof(tileAndLamp), &tileAndLamp);
+}
+
+// In a plane with a unit normal.
+mat4 reflection(const vec4& plane) {
+    mat4 m(1.0F);
+    for (int column = 0; column < 4; ++column) {
+        const vec4 along = -2.0F * plane[column] * vec4(vec3(plane), 0.0F);
+        m[column] += along;
+    }
+    return m;
+}
+
 // Draws all opaque or all cut-out draws into the tiles in which they are visible.
 void drawTiles(const gpu::DrawCommands& to, const DrawList& list, const LampShadows& shadows,
                const LampTileParams& params, bool masked) {
@@ -99,9 +144,14 @@ void drawTiles(const gpu::DrawCommands& to, const DrawList& list, const LampShad
         for (uint32_t face = 0; face < shadow.tiles; ++face) {
             const uint32_t tile = shadow.firstTile + face;
             drawIntoTile(to, uvec2(tile % shadows.columns, tile / shadows.columns), shadows.tileSize);
-            to.context.vk.vkCmdPushConstants(to.commands, to.layout, VK_SHADER_STAGE_ALL, sizeof(glm::mat4x3),
-                                             sizeof(tile), &tile);
+            const uvec2 own(tile, i);
+            pushTile(to, own);
             recordDraws(to, list, {lit, Cull::none, masked, params.worldToTile[tile]}, false);
+            if (shadow.lamp.type == lampReflected) {
+                pushTile(to, own | uvec2(reflectedInTile, 0));
+                recordDraws(to, list,
+                            {lit, Cull::none, masked, params.worldToTile[tile] * reflection(params.mirror[i])}, false);
+            }
         }
     }
 }
@@ -113,7 +163,7 @@ uint32_t tilesOf(const LampShadows& shadows) {
 
 }  // namespace
 
-LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, uint32_t largestSide,
+LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, uint32_t largestSide, float reach,
                             const std::function<void(const std::string&)>& warn) {
     LampShadows shadows{};
     if (settings.filter == ShadowFilter::none || settings.lamps == 0) {
@@ -150,7 +200,10 @@ LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, ui
         for (const uint32_t lamp : groups[i].lamps) {
             lamps.lamps[lamp].shadow = i;
         }
-        shadows.lamps[i] = shadowOf(groups[i].seenFrom, groups[i].lamps.front(), tile, shadows.tileSize);
+        const LampParams& from = groups[i].seenFrom;
+        shadows.lamps[i] = from.type == lampReflected
+                               ? beamOf(from, groups[i].lamps.front(), tile, shadows.tileSize, reach)
+                               : shadowOf(from, groups[i].lamps.front(), tile, shadows.tileSize);
     }
     if (shadows.tileSize < settings.lampResolution) {
         warn(fmt::format(
@@ -177,6 +230,7 @@ static_assert(sizeof(LampMapContents) == sizeof(LampTileParams) + 16, "padding w
 gpu::Image drawLampShadowMap(gpu::PassList& f, gpu::KeptImage& own, const DrawList& list, const LampShadows& shadows) {
     LampTileParams params{};
     for (uint32_t i = 0; i < shadows.count; ++i) {
+        params.mirror[i] = mirrorOf(shadows.lamps[i].lamp);
         for (uint32_t face = 0; face < shadows.lamps[i].tiles; ++face) {
             params.worldToTile[shadows.lamps[i].firstTile + face] = worldToClip(shadows.lamps[i], face);
         }

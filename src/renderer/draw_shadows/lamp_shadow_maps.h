@@ -12,9 +12,10 @@ namespace reflet {
 
 /// Assigns tiles to as many lamps as `settings` allow: the strongest by the largest of red, green and blue intensity,
 /// independent of the view, so that shadows do not pop as the camera moves. Sets the lamps' `shadow`. Tiles are halved
-/// in size until the atlas has at most `largestSide` texels a side. `warn` receives messages about what is left out.
+/// in size until the atlas has at most `largestSide` texels a side. reach: of what casts shadows in reflected suns [m].
+/// Those come first; those without a tile get no light. `warn` receives messages about what is left out.
 LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, uint32_t largestSide,
-                            const std::function<void(const std::string&)>& warn);
+                            float reach, const std::function<void(const std::string&)>& warn);
 
 /// Draws depth from the lamps, both sides of every surface: D32, reversed (near / distance along the tile's axis).
 gpu::Image drawLampShadowMap(gpu::PassList& f, gpu::KeptImage& own, const DrawList& list, const LampShadows& shadows);

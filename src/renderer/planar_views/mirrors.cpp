@@ -1,6 +1,8 @@
 // Finds planar surfaces in a scene and selects the mirrors that are largest on screen.
 #include "renderer/planar_views/mirrors.h"
 
+#include "base/color.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -51,6 +53,31 @@ float meanRoughness(const Scene& scene, const Material& material) {
     return material.roughness * static_cast<float>(sum / 255.0 / std::max<double>(1.0, double(rgba.size()) / 4.0));
 }
 
+// Of the parts that a texture scales, in linear light.
+vec3 meanColor(const Scene& scene, int32_t image, bool srgb) {
+    if (image < 0) {
+        return vec3(1.0F);
+    }
+    const std::vector<uint8_t>& rgba = scene.images.at(static_cast<size_t>(image)).rgba;
+    std::array<float, 256> values{};
+    for (size_t i = 0; i < values.size(); ++i) {
+        const float encoded = static_cast<float>(i) / 255.0F;
+        values[i] = srgb ? decodeSrgb(encoded) : encoded;
+    }
+    glm::dvec3 sum(0.0);
+    for (size_t i = 0; i + 3 < rgba.size(); i += 4) {
+        sum += vec3(values[rgba[i]], values[rgba[i + 1]], values[rgba[i + 2]]);
+    }
+    return vec3(sum / std::max<double>(1.0, static_cast<double>(rgba.size() / 4)));
+}
+
+vec3 meanReflectance(const Scene& scene, const Material& material) {
+    const float metallic = material.metallic * meanColor(scene, material.metallicRoughnessTexture.image, false).z;
+    const int32_t image = metallic > 0.0F ? material.baseColorTexture.image : -1;
+    const vec3 base = vec3(material.baseColor) * meanColor(scene, image, true);
+    return glm::mix(0.04F * material.specular * material.specularColor, base, metallic);
+}
+
 /// Empty if the triangles lie in more than mostPieces planes.
 std::vector<FlatPiece> piecesOf(const Mesh& mesh, const mat4& objectToWorld) {
     const float mirrored = glm::determinant(mat3(objectToWorld)) < 0.0F ? -1.0F : 1.0F;
@@ -80,18 +107,9 @@ std::vector<FlatPiece> piecesOf(const Mesh& mesh, const mat4& objectToWorld) {
             piece->high = -piece->low;
         }
         std::ranges::for_each(corners, [&](const vec3& p) { extend(*piece, p); });
+        piece->area += 0.5F * glm::length(across);
     }
     return pieces;
-}
-
-// The same piece as seen from its other side.
-FlatPiece turnedOver(FlatPiece piece) {
-    piece.plane = -piece.plane;
-    piece.right = -piece.right;
-    const float low = piece.low.x;
-    piece.low.x = -piece.high.x;
-    piece.high.x = -low;
-    return piece;
 }
 
 bool samePlane(const Mirror& mirror, const FlatPiece& piece) {
@@ -161,8 +179,21 @@ void addPiece(std::vector<Mirror>& mirrors, const FlatPiece& piece, const mat4& 
 
 }  // namespace
 
+FlatPiece turnedOver(FlatPiece piece) {
+    piece.plane = -piece.plane;
+    piece.right = -piece.right;
+    const float low = piece.low.x;
+    piece.low.x = -piece.high.x;
+    piece.high.x = -low;
+    return piece;
+}
+
 std::vector<FlatPiece> findFlatPieces(const Scene& scene) {
-    std::map<uint32_t, float> roughness;  // by material, so that a texture's mean is computed once
+    struct Means {
+        float roughness;
+        vec3 f0;
+    };
+    std::map<uint32_t, Means> means;  // by material, so that a texture's mean is computed once
     std::vector<FlatPiece> all;
     const ScenePose pose = scenePose(scene, 0.0);
     for (size_t i = 0; i < scene.instances.size(); ++i) {
@@ -172,14 +203,16 @@ std::vector<FlatPiece> findFlatPieces(const Scene& scene) {
         if (isDeformed(instance) || material.blended) {  // blended ones are not in the G-buffer
             continue;
         }
-        if (!roughness.contains(mesh.material)) {
-            roughness[mesh.material] = meanRoughness(scene, material);
+        if (!means.contains(mesh.material)) {
+            means[mesh.material] = {meanRoughness(scene, material), meanReflectance(scene, material)};
         }
         for (FlatPiece& piece : piecesOf(mesh, pose.objectToWorld[i])) {
             piece.instance = i;
             piece.name = instance.name;
-            piece.roughness = roughness[mesh.material];
+            piece.roughness = means[mesh.material].roughness;
+            piece.f0 = means[mesh.material].f0;
             piece.doubleSided = material.doubleSided;
+            piece.bumpy = material.normalTexture.image >= 0;
             all.push_back(std::move(piece));
         }
     }
@@ -204,7 +237,9 @@ std::vector<FlatPiece> posedFlatPieces(std::span<const FlatPiece> pieces, const 
             piece.instance = instance;
             piece.name = pieces[first].name;
             piece.roughness = pieces[first].roughness;
+            piece.f0 = pieces[first].f0;
             piece.doubleSided = pieces[first].doubleSided;
+            piece.bumpy = pieces[first].bumpy;
             posed.push_back(std::move(piece));
         }
     }

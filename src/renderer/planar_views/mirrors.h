@@ -22,7 +22,10 @@ struct FlatPiece {
     vec2 high{0.0F};
     float tolerance = 0.0F;  ///< largest distance of its vertices from the plane [m]
     float roughness = 0.0F;  ///< perceptual, mean over the material's texture
+    vec3 f0{0.04F};          ///< reflectance at normal incidence, mean over the material's textures
+    float area = 0.0F;       ///< of its triangles [m²]
     bool doubleSided = false;
+    bool bumpy = false;  ///< has a normal map
 };
 
 /// Planar parts of instances whose triangles lie in few planes, one per plane, at time 0. Other instances and deformed
@@ -45,6 +48,9 @@ struct Mirror {
     vec2 uvHigh{0.0F};
     float area = 0.0F;  ///< share of the screen, ignoring occlusion
 };
+
+/// The same piece as seen from its other side.
+FlatPiece turnedOver(FlatPiece piece);
 
 /// The settings.count mirrors largest on screen, in descending order; coplanar pieces form one mirror. With names: only
 /// instances of those names, whatever their roughness. Without: all smooth pieces. Mirrors that face away or are out of

@@ -108,8 +108,9 @@ MirroredScene mirroredScene(const ViewInputs& in, const Mirror& mirror, const Sh
         lamp.position = vec3(reflection * vec4(lamp.position, 1.0F));
         lamp.toLamp = mat3(reflection) * lamp.toLamp;
         lamp.shadow = noLampShadow;
+        lamp.intensity = lamp.type == lampReflected ? vec3(0.0F) : lamp.intensity;  // mirrors of the copy have no sun
     }
-    room.lampShadows = planLampShadows(room.lamps, settings, largestSide, [](const std::string&) {});
+    room.lampShadows = planLampShadows(room.lamps, settings, largestSide, 0.0F, [](const std::string&) {});
     return room;
 }
 

@@ -16,6 +16,7 @@ DirectRays directByRays(gpu::PassList& f, const GBuffer& g, const DirectRaysInpu
     bindEnvironment(pass, in.environment);
     bindSurfaces(f, pass, g);
     pass.constant("anyEmitters", anyEmitters(in.lamps) ? 1U : 0U)
+        .constant("anyReflected", anyReflected(in.lamps) ? 1U : 0U)
         .read("depth", g.depth)
         .read("normal", g.normal)
         .read("geometricNormal", g.geometricNormal)

@@ -12,6 +12,7 @@
 #include "shaders/luminance.glsl"
 #include "shaders/noise.glsl"
 
+const float mirrorClearance = 1e-3;  // of a ray that ends in a mirror, as a share of its length
 const float sceneFar = 1e30;  // metres: farther than anything
 
 // Pseudorandom numbers in [0, 1).
@@ -39,6 +40,7 @@ struct LightRay {
     vec3 light;
     vec3 direction;  // the ray ends at `far` times this
     float far;
+    vec3 behind;     // direction of a second ray from the first one's end, where a mirror has turned the light; or 0
     bool casts;      // false: needs no shadow ray
     bool sun;
 };
@@ -60,6 +62,7 @@ LightRay drawSun(LitPoint at, inout uint random) {
     ray.direction = basisAround(lights.toSun) * vec3(place, z);
     ray.light = reflectToViewer(at, ray.direction) * lights.sunIrradiance / z;
     ray.far = sceneFar;
+    ray.behind = vec3(0.0);
     ray.casts = true;
     ray.sun = true;
     return ray;
@@ -70,11 +73,25 @@ float lampStrength(LitPoint at, uint index, out vec3 irradiance, out vec3 toLamp
     return dot(toLamp, at.geometricNormal) > 0.0 ? luminance(irradiance) : 0.0;
 }
 
+// Shadow rays to the mirror and from there to a point of the sun's disk.
+void aimAtReflectedSun(LampParams lamp, vec3 origin, vec3 toLamp, vec2 u, inout LightRay ray) {
+    vec3 place = vec3(-lamp.radius * lamp.inverseRange * diskPoint(u), 0.0);
+    ray.direction = normalize(toLamp + basisAround(toLamp) * place);
+    vec3 n = unpackUnitVector(floatBitsToUint(lamp.spotOffset));
+    ray.far = distanceToMirror(lamp, origin) * dot(toLamp, n) / min(dot(ray.direction, n), -1e-4);
+    ray.behind = reflect(ray.direction, n);
+}
+
 // Shadow ray to a point of the lamp's disk, ending at the lamp's clearance (docs/conventions.md).
 void aimAtLamp(LitPoint at, LampParams lamp, vec3 origin, vec3 toLamp, vec2 u, inout LightRay ray) {
     ray.direction = toLamp;
     ray.far = sceneFar;
+    ray.behind = vec3(0.0);
     if (lamp.type == lampDirectional) {
+        return;
+    }
+    if (anyReflected != 0u && lamp.type == lampReflected) {
+        aimAtReflectedSun(lamp, origin, toLamp, u, ray);
         return;
     }
     vec2 place = lamp.radius * diskPoint(u);
@@ -93,6 +110,7 @@ LightRay drawLamp(LitPoint at, inout uint random) {
     vec2 u = nextRandom2(random);
     LightRay ray;
     ray.light = vec3(0.0);
+    ray.behind = vec3(0.0);
     ray.casts = false;
     ray.sun = false;
     vec3 irradiance;
@@ -124,8 +142,18 @@ bool isHidden(LitPoint at, LightRay ray) {
             return known == 0.0;
         }
     }
-    return ray.casts && ray.far > 0.0 &&
-           anyHit(at.position + at.geometricNormal * at.clearance, ray.direction, 0.0, ray.far);
+    if (!ray.casts || !(ray.far > 0.0)) {
+        return false;
+    }
+    vec3 origin = at.position + at.geometricNormal * at.clearance;
+    bool turns = anyReflected != 0u && ray.behind != vec3(0.0);
+    float spare = turns ? mirrorClearance * ray.far + at.clearance : 0.0;  // from the mirror, in front of both rays' ends
+    bool hidden = false;
+    for (uint i = 0u; i < (turns ? 2u : 1u) && !hidden; ++i) {  // a loop, so that the traversal is compiled only once
+        vec3 from = i == 0u ? origin : origin + (ray.far - spare) * ray.direction;
+        hidden = anyHit(from, i == 0u ? ray.direction : ray.behind, 0.0, i == 0u ? ray.far - spare : sceneFar);
+    }
+    return hidden;
 }
 
 // sunVisible: 1 if the sun is unoccluded.

@@ -12,6 +12,9 @@ void traceScene(gpu::PassList& f, Rays& rays, const TraceSceneInputs& in, uint32
     const bool reuse = params.settings.reuseScreen != 0 &&
                        (params.settings.light == SceneHitLight::screen || params.fromPrevious != 0);
     const bool tellsMotion = rays.imageMotion && rays.firstRay == 0;
+    const CacheBuffers cache =
+        in.cache ? in.cache
+                 : CacheBuffers{f.buffer("no_keys", sizeof(uint32_t)), f.buffer("no_cells", sizeof(CacheCell))};
     gpu::ComputePass pass = f.compute("trace_scene", in.scene.rays.shader("trace_scene"));
     bindRayOrigins(f, pass, rays);
     in.scene.rays.bind(pass);
@@ -25,7 +28,11 @@ void traceScene(gpu::PassList& f, Rays& rays, const TraceSceneInputs& in, uint32
         .constant("reuseScreen", reuse ? 1U : 0U)
         .constant("tellsMotion", tellsMotion ? 1U : 0U)
         .constant("anyEmitters", anyEmitters(in.lamps) ? 1U : 0U)
+        .constant("anyReflected", anyReflected(in.lamps) ? 1U : 0U)
         .constant("endsInProbes", in.probes ? 1U : 0U)
+        .constant("endsInCache", in.cache ? 1U : 0U)
+        .write("cacheKeys", cache.keys)
+        .write("cacheCells", cache.cells)
         .read("probeLobes", in.probes ? in.probes.lobes : in.environment.lobes, linear)
         .read("probeIrradiance", in.probes ? in.probes.irradiance : in.environment.irradiance)
         .read("probeDistance", in.probes ? in.probes.distance : in.environment.lobes)

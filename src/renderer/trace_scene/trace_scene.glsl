@@ -18,6 +18,7 @@ layout(constant_id = 1) const uint sunShadows = sunShadowRay;
 layout(constant_id = 2) const uint reuseScreen = 0u;
 layout(constant_id = 3) const uint tellsMotion = 0u;
 layout(constant_id = 4) const uint endsInProbes = 0u;
+layout(constant_id = 5) const uint endsInCache = 0u;
 
 layout(local_size_x = 64) in;
 layout(scalar) uniform ParamsBlock { TraceSceneParams params; };
@@ -76,6 +77,7 @@ uint probeCount() { return probeBlock.count; }
 ProbeParams loadProbe(uint index) { return probeBlock.probes[index]; }
 #include "effects/probe/probes.glsl"
 #include "renderer/trace_scene/scene_light.glsl"
+#include "renderer/trace_scene/cached_light.glsl"
 
 const uint rouletteStart = 4u;  // bounces before Russian roulette starts
 // Footprint of a scattered ray relative to its lobe's width, small enough for the blur to be invisible.
@@ -214,16 +216,32 @@ bool looksTheSame(SceneSurface at) {
     return params.bounces <= 1u || at.roughness >= mix(0.2, roughest, at.metallic);
 }
 
+// Light of further bounces where a path ends, reflected to the viewer. known: of the cache.
+vec3 lightAtEnd(LitPoint at, CachedLight known) {
+    if (known.weight <= 0.0) {
+        return endsInProbes != 0u ? probeLight(at) : vec3(0.0);
+    }
+    vec3 mirrored = known.radiance;
+    if (at.surface.roughness < roughest && endsInProbes != 0u) {
+        mirrored = probesOrEnvironment(at.position + at.geometricNormal * at.clearance,
+                                       reflect(-at.toViewer, at.normal), at.surface.roughness, false);
+    }
+    return at.surface.diffuse * known.radiance + at.surface.specular * mirrored;
+}
+
 // Radiance along the ray from its hit. hitDistance: metres; negative: miss.
 vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
     vec3 radiance = vec3(0.0);
     vec3 throughput = vec3(1.0);
     hitDistance = -1.0;
     bool diffuse = lobe == lobeDiffuse;
+    uint fed = noCacheSlot;  // the cell that the ray started from, if it tells that cell's light
     for (uint bounce = 0u;; ++bounce) {
         SceneHit hit;
         if (!closestHit(ray.origin, ray.direction, 0.0, sceneFar, hit)) {
-            return radiance + (bounce > 0u ? throughput * environmentRadiance(ray.direction) : vec3(0.0));
+            vec3 behind = bounce > 0u ? environmentRadiance(ray.direction) : vec3(0.0);
+            feed(fed, behind, random);
+            return radiance + throughput * behind;
         }
         hitDistance = bounce == 0u ? hit.distance : hitDistance;
         float width = params.mips != 0u ? ray.width + ray.spread * hit.distance : 0.0;
@@ -232,14 +250,21 @@ vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
         vec3 byLamps = anyEmitters != 0u && diffuse && found.emitter ? emitted : vec3(0.0);
         vec3 shown;
         if (reuseScreen != 0u && looksTheSame(found) && (bounce == 0u || params.fromPrevious != 0u) && screenLight(found, shown)) {
-            return radiance + throughput * max(shown - byLamps, vec3(0.0));
+            shown = max(shown - byLamps, vec3(0.0));
+            feed(fed, shown, random);
+            return radiance + throughput * shown;
         }
         LitPoint at = LitPoint(found.position, found.geometricNormal, found.normal, -ray.direction, found.clearance,
                                surfaceOf(found, -ray.direction));
         float sunVisible;
-        radiance += throughput * (emitted - byLamps + sunAndLamps(at, random, sunVisible));
-        if (bounce >= params.bounces) {
-            return endsInProbes != 0u ? radiance + throughput * probeLight(at) : radiance;
+        vec3 light = emitted - byLamps + sunAndLamps(at, random, sunVisible);
+        radiance += throughput * light;
+        CachedLight known = cachedLight(at, random);
+        bool ends = endsHere(bounce, known, random);
+        vec3 rest = ends || fed != noCacheSlot ? lightAtEnd(at, known) : vec3(0.0);
+        feed(fed, light + rest, random);
+        if (ends) {
+            return radiance + throughput * rest;
         }
         SceneRay next;
         throughput *= scatter(at, params.diffuseOnly != 0u, random, next, diffuse);
@@ -251,6 +276,7 @@ vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
         if (throughput == vec3(0.0)) {
             return radiance;
         }
+        fed = diffuse ? cellToFeed(at) : noCacheSlot;
         ray = next;
     }
 }

@@ -6,6 +6,7 @@
 #include "base/shared.h"
 #include "effects/shadow/shadow.h"
 #include "effects/view.h"
+#include "renderer/radiance_cache/radiance_cache.h"
 
 SHARED_BEGIN
 
@@ -70,6 +71,7 @@ struct TraceSceneParams {
     uint mips;          // 0: textures are read at the finest level
     uint fromPrevious;  // 1: screen light is the last frame's
     uint firstRay;
+    float cellSize;  // of the radiance cache
 };
 
 // Values of the specialization constant `sunShadows`.
@@ -107,6 +109,7 @@ struct TraceSceneInputs {
     const EnvironmentLight& environment;
     const LampBlock& lamps;
     const ProbeMaps& probes;  ///< if there are any, they bring the light of further bounces where a path ends
+    CacheBuffers cache;       ///< before them, if there is one; it learns from the paths
 };
 
 /// Hits get confidence 1. Misses stay in rays.waiting, marked as known misses, and so do rays beyond the budget and

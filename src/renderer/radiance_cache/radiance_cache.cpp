@@ -1,0 +1,35 @@
+// Records the upkeep of the radiance cache.
+#include "renderer/radiance_cache/radiance_cache.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace reflet {
+
+namespace {
+
+// Where all light has changed, what was known counts half after so many frames.
+constexpr float halfLife = 2.0F;
+
+}  // namespace
+
+CacheBuffers RadianceCache::update(gpu::PassList& f, const RadianceCacheSettings& settings, float change) {
+    if (settings.enabled == 0) {
+        return {};
+    }
+    const CacheBuffers cache{keys_.get(f, cacheSlots * sizeof(uint32_t)),
+                             cells_.get(f, cacheSlots * sizeof(CacheCell))};
+    const bool written = keys_.holds(f) && cells_.holds(f);
+    const bool kept = written && generation_ == f.generation();
+    generation_ = f.generation();
+    const float atRest = 1.0F - 1.0F / static_cast<float>(settings.history);
+    const float changed = std::min(atRest, std::exp2(-1.0F / halfLife));
+    f.compute("settle_cache", "settle_cache.comp")
+        .write("cacheKeys", cache.keys)
+        .write("cacheCells", cache.cells)
+        .params(SettleCacheParams{glm::mix(atRest, changed, std::clamp(change, 0.0F, 1.0F)), kept ? ~0U : 0U})
+        .dispatch(cacheSlots);
+    return cache;
+}
+
+}  // namespace reflet

@@ -1,0 +1,85 @@
+// Radiance cache: the light that reaches surfaces after at least one bounce, remembered in cells of the world, on
+// screen or off. Paths of scene rays end in it, so that they bring all bounces; what they find on their way fills it.
+// Shared by C++ and GLSL.
+//
+// A cell is a cube of the world and a range of normals, in a hash table of fixed size. It holds the mean incoming
+// radiance of its surfaces, cosine-weighted: the irradiance over pi, which diffuse surfaces multiply by their albedo.
+// Direct light of sun and lamps is not in it, as hits compute that exactly, so that cells need not resolve shadows.
+//
+// P. Gautron: Real-Time Ray-Traced Ambient Occlusion of Complex Scenes using Spatial Hashing (SIGGRAPH 2020 talk), for
+// the table; T. Müller et al.: Real-time Neural Radiance Caching for Path Tracing (2021), for paths that end in what
+// they have fed. docs/methods/radiance-cache.md.
+#ifndef REFLET_RENDERER_RADIANCE_CACHE_H
+#define REFLET_RENDERER_RADIANCE_CACHE_H
+
+#include "base/shared.h"
+
+SHARED_BEGIN
+
+#define RADIANCE_CACHE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                 \
+    SWITCH(enabled, 0,                                                                                                 \
+           "World-space radiance cache: paths of scene rays (trace_scene with light=screen) end in remembered light, " \
+           "with all bounces, instead of probes. 11 MB.")                                                              \
+    VALUE(float, cellSize, 0.03, 0.001, 0.5,                                                                           \
+          "Largest side of a cell, as a share of its distance from the camera; sides are powers of two in metres. "    \
+          "Smaller: sharper indirect light at hits, fewer leaks, more noise.")                                         \
+    VALUE(uint, history, 50, 1, 10000,                                                                                 \
+          "Frames whose light a cell remembers, about, while lights and surfaces stand still; where they change, it "  \
+          "forgets faster by itself. More: less noise.")
+SETTINGS(RadianceCacheSettings, RADIANCE_CACHE_SETTINGS)
+
+// Of the table. 2^18 cells: closed rooms have about 3e4 within sight of a camera that stands still.
+const uint cacheSlots = 262144;
+// Slots that a key may be in.
+const uint cacheProbes = 8;
+
+struct CacheCell {
+    // Of this frame: number of samples, and their sums in fixed point, so that the order of additions has no influence.
+    uint count;
+    uint sumRed;
+    uint sumGreen;
+    uint sumBlue;
+    // Settled at the start of the frame.
+    vec3 mean;     // incoming radiance, cosine-weighted
+    float weight;  // samples that it stands for; 0: none yet
+    uint life;     // frames since its creation in the low half, frames since its last sample in the high half
+};
+
+struct SettleCacheParams {
+    float keep;      // share of its weight that what was known has after a frame
+    uint keptSlots;  // all bits, or none: the table starts empty
+};
+
+SHARED_END
+
+#ifdef __cplusplus
+
+#include "gpu/images.h"
+#include "gpu/pass_list.h"
+
+namespace reflet {
+
+/// The table of a frame.
+struct CacheBuffers {
+    gpu::BufferView keys;   ///< uint per slot; 0: free
+    gpu::BufferView cells;  ///< CacheCell per slot
+    explicit operator bool() const { return bool(cells); }
+};
+
+/// A cache: what it keeps from frame to frame. A cut need not empty it, as it does not depend on the view.
+class RadianceCache {
+public:
+    /// Takes over the last frame's samples, and frees cells that nothing has fed for long. Once a frame. change: share
+    /// of the light that has changed since the last frame, 0 to 1.
+    CacheBuffers update(gpu::PassList& f, const RadianceCacheSettings& settings, float change);
+
+private:
+    gpu::KeptBuffer keys_{"radiance_cache.keys"};
+    gpu::KeptBuffer cells_{"radiance_cache.cells"};
+    uint64_t generation_ = 0;
+};
+
+}  // namespace reflet
+#endif
+
+#endif

@@ -1,0 +1,43 @@
+// Takes over what the last frame has fed to each cell of the radiance cache, and frees cells that nothing feeds any
+// more.
+#version 460
+#extension GL_EXT_scalar_block_layout : require
+#include "renderer/radiance_cache/radiance_cache.glsl"
+
+layout(local_size_x = 64) in;
+layout(scalar) uniform ParamsBlock {
+    SettleCacheParams params;
+};
+
+// A cell without samples is freed after so many frames.
+const uint longestIdle = 120u;
+// What a new cell knows is from when its neighbours were new, too, and lack bounces: for so many frames it fades fast.
+const uint youth = 16u;
+const float keepYoung = 0.8;
+
+const CacheCell noCell = CacheCell(0u, 0u, 0u, 0u, vec3(0.0), 0.0, 0u);
+
+void main() {
+    uint slot = gl_GlobalInvocationID.x;
+    uint before = cacheKeys.items[slot];
+    uint key = before & params.keptSlots;
+    if (before == 0u && params.keptSlots != 0u) {
+        return;
+    }
+    CacheCell c = cacheCells.items[slot];
+    uint age = min((c.life & 0xffffu) + 1u, 0xffffu);
+    uint idle = c.count > 0u ? 0u : (c.life >> 16u) + 1u;
+    if (key == 0u || idle > longestIdle) {
+        cacheKeys.items[slot] = 0u;
+        cacheCells.items[slot] = noCell;
+        return;
+    }
+    float kept = c.weight * (age < youth ? min(params.keep, keepYoung) : params.keep);
+    if (c.count > 0u) {
+        vec3 sum = vec3(c.sumRed, c.sumGreen, c.sumBlue) / cacheScale(c);
+        float samples = float(c.count);
+        c.mean = (c.mean * kept + sum) / (kept + samples);
+        kept += samples;
+    }
+    cacheCells.items[slot] = CacheCell(0u, 0u, 0u, 0u, c.mean, kept, age | (idle << 16u));
+}

@@ -1,0 +1,69 @@
+// How paths through the scene end in the radiance cache, and feed it. Included by trace_scene.glsl.
+#ifndef REFLET_CACHED_LIGHT_GLSL
+#define REFLET_CACHED_LIGHT_GLSL
+
+#include "renderer/radiance_cache/radiance_cache.glsl"
+
+struct CachedLight {
+    vec3 radiance;  // incoming, cosine-weighted
+    float weight;   // samples that it stands for; 0: unknown
+};
+
+const CachedLight noCachedLight = CachedLight(vec3(0.0), 0.0);
+
+// A cell of fewer samples is not trusted: paths go on, for so many bounces more.
+const float enoughSamples = 4.0;
+const uint bouncesPastCache = 3u;
+// Share of the paths that go on behind a known cell and feed it.
+const float feedingShare = 0.25;
+// A cell of so many samples already ends half of the paths at their first hit: less noise, and fewer rays.
+const float manySamples = 16.0;
+const float shareOfMany = 0.5;
+
+CachedLight cellLight(vec3 p, vec3 n, float side) {
+    uint slot = findCacheCell(cachePlace(p, n, side));
+    return slot == noCacheSlot ? noCachedLight : CachedLight(cacheCells.items[slot].mean, cacheCells.items[slot].weight);
+}
+
+// From a random place nearby, so that the cells' borders blur.
+CachedLight cachedLight(LitPoint at, inout uint random) {
+    if (endsInCache == 0u) {
+        return noCachedLight;
+    }
+    float side = cacheCellSide(at.position, params.view.eye, params.cellSize);
+    vec2 away = (nextRandom2(random) - 0.5) * side;
+    CachedLight near = cellLight(at.position + basisAround(at.geometricNormal) * vec3(away, 0.0), at.normal, side);
+    if (near.weight >= enoughSamples) {
+        return near;
+    }
+    CachedLight own = cellLight(at.position, at.normal, side);
+    return own.weight >= near.weight ? own : near;
+}
+
+uint cellToFeed(LitPoint at) {
+    if (endsInCache == 0u) {
+        return noCacheSlot;
+    }
+    return findOrAddCacheCell(cachePlace(at.position, at.normal, cacheCellSide(at.position, params.view.eye, params.cellSize)));
+}
+
+void feed(uint slot, vec3 radiance, inout uint random) {
+    if (slot != noCacheSlot) {
+        feedCache(slot, radiance, nextRandom(random));
+    }
+}
+
+// Whether a path ends at the hit after so many bounces.
+bool endsHere(uint bounce, CachedLight known, inout uint random) {
+    bool far = bounce >= params.bounces;
+    if (endsInCache == 0u) {
+        return far;
+    }
+    if (!far && known.weight >= manySamples) {
+        return nextRandom(random) < shareOfMany;
+    }
+    bool goesOn = known.weight < enoughSamples || nextRandom(random) < feedingShare;
+    return far && !(goesOn && bounce < params.bounces + bouncesPastCache);
+}
+
+#endif
