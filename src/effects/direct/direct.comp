@@ -1,6 +1,6 @@
 // Direct light of sun and lamps, emission and background. In: G-buffer, visibility of sun and lamps, lamp masks per
 // tile.
-// Out: direct radiance; the part of it that lamps bring which stand for emissive surfaces.
+// Out: direct radiance; the part of it that lamps bring which stand for emissive surfaces, or for the sun in mirrors.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/direct/direct.h"
@@ -36,13 +36,14 @@ float visibilityOfLamp(uint shadow, ivec2 pixel) {
     return shadow == noLampShadow ? 1.0 : texelFetch(lampVisibility, ivec3(pixel, shadow / 4u), 0)[shadow % 4u];
 }
 
-// emitters: their part of it.
+// emitters: the part of emitters and of mirrors that reflect the sun.
 vec3 lampLight(uint index, Surface s, vec3 p, vec3 n, vec3 v, ivec2 pixel, inout vec3 emitters) {
     vec3 toLamp;
     vec3 irradiance = lampIrradiance(lampBlock.lamps[index], p, toLamp);
     s = surfaceFor(lampBlock.lamps[index], s);
     vec3 light = brdfTimesCosine(s, n, v, toLamp) * irradiance * visibilityOfLamp(lampBlock.lamps[index].shadow, pixel);
-    emitters += lampBlock.lamps[index].type == lampEmitter ? light : vec3(0.0);
+    bool indirect = lampBlock.lamps[index].type == lampEmitter || lampBlock.lamps[index].type == lampReflected;
+    emitters += indirect ? light : vec3(0.0);
     return light;
 }
 
@@ -80,7 +81,7 @@ void main() {
     if (all(lessThan(pixel, ivec2(params.view.size)))) {
         vec3 emitters;
         imageStore(direct, pixel, vec4(clampToHalf(radianceAt(pixel, emitters)), 1.0));
-        if (anyEmitters != 0u) {
+        if ((anyEmitters | anyReflected) != 0u) {
             imageStore(fromEmitters, pixel, vec4(clampToHalf(emitters), 1.0));
         }
     }

@@ -18,7 +18,8 @@ DirectLight directLight(gpu::PassList& f, const GBuffer& g, const LightVisibilit
                         const DirectParams& params, const DirectLights& lights) {
     const gpu::Image direct = f.image("direct", VK_FORMAT_R16G16B16A16_SFLOAT, g.depth.size);
     const bool emitters = anyEmitters(lights.lamps);
-    const gpu::Image fromEmitters = emitters ? f.image("from_emitters", direct.format, g.depth.size) : gpu::Image{};
+    const bool apart = emitters || anyReflected(lights.lamps);
+    const gpu::Image fromEmitters = apart ? f.image("from_emitters", direct.format, g.depth.size) : gpu::Image{};
     // Always bound, but not read if no lamp casts a shadow.
     const gpu::Image lampVisibility =
         visibility.lamps ? visibility.lamps : f.placeholder(VK_FORMAT_R8G8B8A8_UNORM, gpu::ViewKind::array);
@@ -37,7 +38,7 @@ DirectLight directLight(gpu::PassList& f, const GBuffer& g, const LightVisibilit
         .read("lampMasks", visibility.lampMasks)
         .write("direct", direct)
         .constant("lambertOnly", lights.lambertOnly ? 1U : 0U)
-        .write("fromEmitters", emitters ? fromEmitters : f.placeholder(direct.format))
+        .write("fromEmitters", apart ? fromEmitters : f.placeholder(direct.format))
         .constant("anyEmitters", emitters ? 1U : 0U)
         .constant("anyReflected", anyReflected(lights.lamps) ? 1U : 0U)
         .constant("coloredSun", visibility.sun.format == VK_FORMAT_R8G8B8A8_UNORM ? 1U : 0U)

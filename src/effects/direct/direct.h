@@ -46,7 +46,8 @@ struct DirectLights {
 /// RGBA16F, alpha 1.
 struct DirectLight {
     gpu::Image all;           ///< radiance of sun and lamps, emission and background
-    gpu::Image fromEmitters;  ///< of it, what lamps bring that stand for emissive surfaces; none without these
+    gpu::Image fromEmitters;  ///< of it, what lamps bring that stand for emissive surfaces or for the sun in
+                              ///< mirrors; none without these
 };
 
 DirectLight directLight(gpu::PassList& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,
