@@ -6,12 +6,14 @@
 #endif
 
 int main(int argc, char** argv) {
-    constexpr reflet::AddCommand commands[] = {
-        reflet::addRenderCommand,
+    constexpr reflet::AddCommand commands[] = {reflet::addRenderCommand,
 #ifdef REFLET_WINDOW
-        reflet::addViewCommand,
+                                               reflet::addViewCommand,
 #endif
-        reflet::addReferenceCommand, reflet::addDefocusCommand, reflet::addCompareCommand, reflet::addBenchCommand,
-        reflet::addReportCommand,    reflet::addQualifyCommand, reflet::addListCommand,    reflet::addInfoCommand};
+                                               reflet::addTurntableCommand, reflet::addContactSheetCommand,
+                                               reflet::addReferenceCommand, reflet::addDefocusCommand,
+                                               reflet::addCompareCommand,   reflet::addBenchCommand,
+                                               reflet::addReportCommand,    reflet::addQualifyCommand,
+                                               reflet::addListCommand,      reflet::addInfoCommand};
     return reflet::runProgram(argc, argv, commands);
 }
