@@ -82,15 +82,18 @@ TEST_F(Films, FramesOfATurntableAreStillsOfTheirDirection) {
     ASSERT_TRUE(quietSuccess(turntable({"--orbit", "0,20,5", "--look-at", "0,0.5,0", "--seconds", "1", "--fps", "4",
                                         "--share", "2/4", "-o", "f_#.png", "--light", "scene"})));
     EXPECT_EQ(files(), (Names{"f_#.png.sequence.json", "f_1.png"}));
-    ASSERT_TRUE(quietSuccess(run({"render", "builtin:cubes", "--size", "32x24", "--preset", "plain", "--frames", "16",
-                                  "--orbit", "90,20,5", "--look-at", "0,0.5,0", "-o", "still.png"})));
     const Bitmap frame = readBitmap(path("f_1.png"));
-    const Bitmap still = readBitmap(path("still.png"));
-    double difference = 0.0;
-    for (size_t i = 0; i < frame.data.size(); ++i) {
-        difference += std::abs(int(frame.data[i]) - int(still.data[i]));
-    }
-    EXPECT_LT(difference / static_cast<double>(frame.data.size()), 4.0);
+    const auto differenceTo = [&](const std::string& azimuth) {
+        EXPECT_TRUE(quietSuccess(run({"render", "builtin:cubes", "--size", "32x24", "--preset", "plain", "--orbit",
+                                      azimuth + ",20,5", "--look-at", "0,0.5,0", "-o", "still.png"})));
+        const Bitmap still = readBitmap(path("still.png"));
+        double sum = 0.0;
+        for (size_t i = 0; i < frame.data.size(); ++i) {
+            sum += std::abs(int(frame.data[i]) - int(still.data[i]));
+        }
+        return sum;
+    };
+    EXPECT_LT(differenceTo("90"), 0.6 * differenceTo("-90")) << "but for noise";
 }
 
 TEST_F(Films, OtherFormatsAreMadeByFfmpegOrRefusedBeforeTheWork) {
@@ -110,6 +113,7 @@ TEST_F(Films, OtherFormatsAreMadeByFfmpegOrRefusedBeforeTheWork) {
     }
     EXPECT_FALSE(fs::exists(path("a.mp4.frames")));
     write("bin/ffmpeg", "#!/bin/sh\nexit 7\n");
+    fs::permissions(path("bin/ffmpeg"), fs::perms::owner_all);
     EXPECT_EQ(turntable(film, found).status, 1);
     EXPECT_TRUE(fs::exists(path("a.mp4.frames/frame_000001.png"))) << "frames stay";
 }
@@ -148,7 +152,7 @@ TEST_F(Films, AContactSheetHasAllPicturesAndTheirNames) {
 }
 
 TEST_F(Films, ScriptsGetJsonOrSilence) {
-    write("dark.gltf", triangleAnd(""));
+    write("dark.gltf", triangleAnd(R"("nodes": [{"mesh": 0}])"));
     const Outcome noted = render("dark.gltf", {"-o", "a.png"});
     EXPECT_NE(noted.err.find("note:"), std::string::npos) << noted.err;
     const Outcome quiet = render("dark.gltf", {"-o", "a.png", "--quiet", "--json", "--save-view", "v.json"});
