@@ -18,7 +18,7 @@ needed=(
     "libtinygltf-dev: reads glTF"
     "libdraco-dev: decodes compressed meshes"
     "libmeshoptimizer-dev: decodes compressed meshes"
-    "libwebp-dev: reads WebP"
+    "libwebp-dev: reads WebP, writes WebP animations"
     "libzstd-dev: reads compressed KTX 2"
     "libopenexr-dev: writes and reads EXR"
     "libstb-dev: writes and reads PNG, JPEG, HDR"

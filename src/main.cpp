@@ -11,8 +11,9 @@ int main(int argc, char** argv) {
 #ifdef REFLET_WINDOW
         reflet::addViewCommand,
 #endif
-        reflet::addReferenceCommand, reflet::addDatasetCommand, reflet::addDefocusCommand,
-        reflet::addCompareCommand,   reflet::addBenchCommand,   reflet::addReportCommand,
-        reflet::addQualifyCommand,   reflet::addListCommand,    reflet::addInfoCommand};
+        reflet::addTurntableCommand, reflet::addContactSheetCommand, reflet::addReferenceCommand,
+        reflet::addDatasetCommand,   reflet::addDefocusCommand,      reflet::addCompareCommand,
+        reflet::addBenchCommand,     reflet::addReportCommand,       reflet::addQualifyCommand,
+        reflet::addListCommand,      reflet::addInfoCommand};
     return reflet::runProgram(argc, argv, commands);
 }

@@ -2,9 +2,24 @@
 #include "base/message.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 
 namespace reflet {
+
+namespace {
+
+std::atomic<bool> quietly{false};
+
+}  // namespace
+
+void setQuiet(bool quiet) noexcept {
+    quietly = quiet;
+}
+
+bool isQuiet() noexcept {
+    return quietly;
+}
 
 std::string listed(std::span<const std::string> names) {
     constexpr size_t most = 20;

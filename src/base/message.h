@@ -19,6 +19,10 @@ constexpr size_t longestMessage = 8000;
 /// throws. kind: "", "warning:" or "note:".
 void printMessage(std::string_view kind, std::string_view message) noexcept;
 
+/// Whether notes and progress are left out, as --quiet asks. Of the whole process.
+void setQuiet(bool quiet) noexcept;
+bool isQuiet() noexcept;
+
 /// Writes the text as it is. Errors of writing are ignored; never throws.
 void printRaw(std::string_view text) noexcept;
 

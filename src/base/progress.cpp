@@ -18,21 +18,26 @@ namespace {
 
 constexpr std::chrono::milliseconds patience(500);  // work shorter than this shows nothing
 constexpr std::chrono::seconds notePatience(1);
+constexpr double secondsPerHour = 3600.0;
 
 std::string durationText(double seconds) {
     const auto whole = std::llround(seconds);
     return whole < 60 ? fmt::format("{} s", whole) : fmt::format("{}:{:02} min", whole / 60, whole % 60);
 }
 
+bool showsProgress() {
+    return isatty(STDERR_FILENO) != 0 && !isQuiet();
+}
+
 }  // namespace
 
 void tellWritten(const std::string& what) {
-    if (isatty(STDERR_FILENO) != 0) {
+    if (showsProgress()) {
         printRaw(fmt::format("written: {}\n", visibleText(what)));
     }
 }
 
-WaitingNote::WaitingNote() : terminal_(isatty(STDERR_FILENO) != 0) {}
+WaitingNote::WaitingNote() : terminal_(showsProgress()) {}
 
 void WaitingNote::begin(std::string text) {
     end();
@@ -61,8 +66,8 @@ void WaitingNote::end() {
     thread_ = {};
 }
 
-Progress::Progress(std::string what, uint64_t total)
-    : what_(std::move(what)), total_(total), terminal_(isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(std::string what, uint64_t total, std::string rate)
+    : what_(std::move(what)), rate_(std::move(rate)), total_(total), terminal_(showsProgress()) {}
 
 Progress::~Progress() {
     if (shown_) {
@@ -80,8 +85,12 @@ void Progress::set(uint64_t done, std::string_view note) {
     shown_ = true;
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const double left = elapsed / static_cast<double>(done_) * static_cast<double>(total_ - done_);
-    printRaw(fmt::format("\r\033[K{} {} of {}, {} left{}{}", visibleText(what_), done_, total_, durationText(left),
-                         note.empty() ? "" : ", ", visibleText(note)));
+    std::string line =
+        fmt::format("\r\033[K{} {} of {}, {} left", visibleText(what_), done_, total_, durationText(left));
+    if (!rate_.empty()) {
+        line += fmt::format(", {:.0f} {}", static_cast<double>(done_) / elapsed * secondsPerHour, visibleText(rate_));
+    }
+    printRaw(line + (note.empty() ? "" : ", ") + visibleText(note));
 }
 
 }  // namespace reflet

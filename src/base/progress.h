@@ -1,4 +1,5 @@
-// Progress of long work on a terminal: how far, and the time left. Silent unless standard error is a terminal.
+// Progress of long work on a terminal: how far, and the time left. Silent unless standard error is a terminal, and with
+// setQuiet (base/message.h).
 #pragma once
 
 #include <chrono>
@@ -31,7 +32,8 @@ private:
 
 class Progress {
 public:
-    Progress(std::string what, uint64_t total);
+    /// rate: "frames an hour", which is shown, too.
+    Progress(std::string what, uint64_t total, std::string rate = "");
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -46,6 +48,7 @@ private:
     using Clock = std::chrono::steady_clock;
 
     std::string what_;
+    std::string rate_;
     uint64_t total_;
     uint64_t done_ = 0;
     bool shown_ = false;

@@ -121,13 +121,13 @@ void Pictures::write(const std::string& file, const gpu::Frame& f, const View& v
     if (isExr(file)) {
         writeExrFile(file, f, params, imageCamera(view, size));
     } else {
-        writePngFile(file, f, params);
+        writePng(file, bitmap(f, params));
     }
 }
 
-void Pictures::writePngFile(const std::string& file, const gpu::Frame& f, const ViewParams& view) const {
-    writePng(file, main_->picture == nullptr ? fetchDisplay(f, display_, view.size, transparent_)
-                                             : makePicture(*main_, fetchValues(f, readbacks_.at(main_), view)));
+Bitmap Pictures::bitmap(const gpu::Frame& f, const ViewParams& view) const {
+    return main_->picture == nullptr ? fetchDisplay(f, display_, view.size, transparent_)
+                                     : makePicture(*main_, fetchValues(f, readbacks_.at(main_), view));
 }
 
 // The final image has an alpha channel where surfaces do not cover all of it.

@@ -54,11 +54,13 @@ public:
     /// Of the rays of each lobe: mean depth samples, and the fraction of screen-space hits. After the frame is done.
     [[nodiscard]] nlohmann::ordered_json rayStatistics(const gpu::Frame& f, const ViewParams& view) const;
 
+    /// What a .png file has, after the frame is done.
+    [[nodiscard]] Bitmap bitmap(const gpu::Frame& f, const ViewParams& view) const;
+
     /// Writes a .png or .exr file after the frame is done. view: posed. Throws Error.
     void write(const std::string& file, const gpu::Frame& f, const View& view, uvec2 size) const;
 
 private:
-    void writePngFile(const std::string& file, const gpu::Frame& f, const ViewParams& view) const;
     [[nodiscard]] FloatImage valuesOf(const Show& show, const gpu::Frame& f, const ViewParams& view) const;
     void writeExrFile(const std::string& file, const gpu::Frame& f, const ViewParams& view,
                       const ImageCamera& camera) const;

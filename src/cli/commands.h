@@ -8,6 +8,8 @@ class App;
 namespace reflet {
 
 void addRenderCommand(CLI::App& app);
+void addTurntableCommand(CLI::App& app);
+void addContactSheetCommand(CLI::App& app);
 void addReferenceCommand(CLI::App& app);
 void addDatasetCommand(CLI::App& app);
 void addCompareCommand(CLI::App& app);

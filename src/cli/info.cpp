@@ -2,9 +2,12 @@
 #include "base/error.h"
 #include "base/json_text.h"
 #include "cli/commands.h"
+#include "job/camera_options.h"
 #include "scene/builtin.h"
+#include "scene/framing.h"
 #include "scene/gltf/gltf.h"
 #include "scene/pose.h"
+#include "scene/view_file.h"
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -19,6 +22,8 @@ namespace {
 
 using nlohmann::ordered_json;
 
+constexpr float automaticAspect = 16.0F / 9.0F;  // of render's default size
+
 struct InfoOptions {
     std::string file;
     bool json = false;
@@ -26,6 +31,12 @@ struct InfoOptions {
 
 ordered_json numbers(const vec3& v) {
     return {v.x, v.y, v.z};
+}
+
+// A point of the world in the coordinates of the file.
+ordered_json inFile(const Scene& scene, const vec3& point) {
+    const glm::dvec3 p = scene.origin + glm::dvec3(point);
+    return {p.x, p.y, p.z};
 }
 
 uint64_t trianglesOf(const Scene& scene, bool placed) {
@@ -77,7 +88,7 @@ ordered_json camerasOf(const Scene& scene) {
     for (const Camera& camera : scene.cameras) {
         cameras.push_back({{"name", camera.name},
                            {"type", camera.orthographicHeight > 0.0F ? "orthographic" : "perspective"},
-                           {"position", numbers(camera.position)}});
+                           {"position", inFile(scene, camera.position)}});
     }
     return cameras;
 }
@@ -98,7 +109,10 @@ ordered_json infoOf(const Scene& scene, const std::vector<std::string>& warnings
     ordered_json info{{"name", scene.name}, {"extensions", scene.extensions}, {"counts", countsOf(scene)}};
     const Aabb bounds = scene.bounds();
     if (!bounds.empty()) {
-        info["bounds"] = {{"min", numbers(bounds.min)}, {"max", numbers(bounds.max)}};
+        info["bounds"] = {{"min", inFile(scene, bounds.min)}, {"max", inFile(scene, bounds.max)}};
+    }
+    if (scene.cameras.empty()) {
+        info["automatic_camera"] = viewJson(defaultView(scene, automaticAspect))["camera"];
     }
     info["lights"] = lampsOf(scene);
     info["cameras"] = camerasOf(scene);
@@ -129,6 +143,19 @@ void printText(const Scene& scene, const ordered_json& info) {
     if (!bounds.empty()) {
         const vec3 size = bounds.size();
         line("size", fmt::format("{:.4g} x {:.4g} x {:.4g} m", size.x, size.y, size.z));
+        const glm::dvec3 low = scene.origin + glm::dvec3(bounds.min);
+        const glm::dvec3 high = scene.origin + glm::dvec3(bounds.max);
+        line("bounds",
+             fmt::format("{:.6g},{:.6g},{:.6g} to {:.6g},{:.6g},{:.6g}", low.x, low.y, low.z, high.x, high.y, high.z));
+    }
+    if (scene.cameras.empty()) {
+        const Camera camera = framingCamera(scene, automaticAspect);
+        const Direction from = directionOf(glm::dvec3(camera.position) - glm::dvec3(camera.target));
+        const glm::dvec3 target = scene.origin + glm::dvec3(camera.target);
+        line("camera",
+             fmt::format("automatic: --orbit {:.3g},{:.3g},{:.4g} --look-at {:.6g},{:.6g},{:.6g} --fov {:.4g}",
+                         from.azimuth, from.elevation, glm::distance(camera.position, camera.target), target.x,
+                         target.y, target.z, glm::degrees(camera.fovY)));
     }
     for (const auto& lamp : info["lights"]) {
         line("light", fmt::format("{}, {}", lamp["type"].get<std::string>(), nameOr(lamp, "without a name")));

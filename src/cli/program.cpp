@@ -6,6 +6,7 @@
 #include "base/text.h"
 #include "cli/last_resort.h"
 #include "cli/manual.h"
+#include "cli/option_hints.h"
 #include "version.h"
 
 #include <CLI/CLI.hpp>
@@ -83,8 +84,12 @@ std::string unexpectedArgument(const CLI::App& app) {
         std::ranges::transform(option->get_lnames(), std::back_inserter(names),
                                [](const std::string& name) { return "--" + name; });
     }
-    return fmt::format("unexpected argument '{}' (see {} --help){}", rest.front(), fullName(*command),
-                       rest.front().starts_with('-') ? suggestion(rest.front(), names) : "");
+    const std::string& typed = rest.front();
+    std::string hint = optionHint(typed, [&](const std::string& name) { return std::ranges::count(names, name) > 0; });
+    if (hint.empty() && typed.starts_with('-')) {
+        hint = suggestion(typed.substr(0, typed.find('=')), names);
+    }
+    return fmt::format("unexpected argument '{}' (see {} --help){}", typed, fullName(*command), hint);
 }
 
 int parseAndRun(int argc, char** argv, std::span<const AddCommand> commands) {

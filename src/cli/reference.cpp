@@ -10,6 +10,7 @@
 #include "cli/scene_arguments.h"
 #include "cli/sequence_arguments.h"
 #include "effects/exposure/exposure.h"
+#include "job/film.h"
 #include "job/sequence_files.h"
 #include "job/sequence_plan.h"
 #include "job/sequence_record.h"
@@ -40,6 +41,7 @@ struct TraceJob {
     const Scene& scene;
     const View& view;
     uvec2 size;
+    const Films& films;
 };
 
 ReferencePicture tracePicture(const TraceJob& job, const View& view, uint32_t seed,
@@ -117,6 +119,13 @@ std::string summary(const ReferencePicture& picture) {
         raysText(picture.rays, picture.seconds));
 }
 
+// The summary, unless a script wants none.
+void tellTraced(const TraceJob& job, const std::string& text) {
+    if (!job.command.script.quiet && !job.command.script.json) {
+        fmt::print("{}\n", text);
+    }
+}
+
 void traceOne(const TraceJob& job) {
     const InterruptNote note;
     SampleProgress progress("tracing", job.options, job.size);
@@ -131,10 +140,16 @@ void traceOne(const TraceJob& job) {
              job.options.samples, fmt::join(job.command.outputs, ", "),
              job.command.outputs.size() == 1 ? "holds" : "hold");
     }
-    fmt::print("{}{}\n", summary(picture),
-               exposesAutomatically(job.settings.tonemap, job.scene)
-                   ? fmt::format("; exposure {:+.2f} stops", tonemap.exposure)
-                   : "");
+    tellTraced(job, fmt::format("{}{}", summary(picture),
+                                exposesAutomatically(job.settings.tonemap, job.scene)
+                                    ? fmt::format("; exposure {:+.2f} stops", tonemap.exposure)
+                                    : ""));
+    printResult(job.command.script, {{"outputs", job.command.outputs},
+                                     {"size", {job.size.x, job.size.y}},
+                                     {"samples", picture.samples},
+                                     {"noise", picture.noise},
+                                     {"rays", picture.rays},
+                                     {"seconds", picture.seconds}});
 }
 
 // Everything that the images depend on: equal in all shares and, except for an orbit, for any number of frames.
@@ -180,7 +195,7 @@ void traceSequence(const TraceJob& job) {
     const Share share = parseShare(c.sequence.share);
     noteEmptyShare(plan, share);
     const auto runs = plan.runs(share, [&](uint32_t frame) { return files.isMissing(frame); });
-    Progress progress("tracing frame", plan.work(runs));
+    Progress progress("tracing frame", plan.work(runs), "frames an hour");
     uint32_t traced = 0;
     uint64_t rays = 0;
     double seconds = 0.0;
@@ -203,19 +218,33 @@ void traceSequence(const TraceJob& job) {
         }
         progress.advance();
     }
-    fmt::print("{} of {} frames traced; {}\n", traced, c.frames, raysText(rays, seconds));
+    tellTraced(job, fmt::format("{} of {} frames traced; {}", traced, c.frames, raysText(rays, seconds)));
+    std::vector<std::string> written = job.films.write(c.sequence.fps, c.sequence.firstFrame, c.frames);
+    std::ranges::copy_if(c.outputs, std::back_inserter(written),
+                         [&](const std::string& file) { return !job.films.hasFrames(file); });
+    printResult(c.script, {{"outputs", written},
+                           {"size", {job.size.x, job.size.y}},
+                           {"frames", c.frames},
+                           {"rendered", traced},
+                           {"rays", rays},
+                           {"seconds", seconds}});
 }
 
-void trace(const ReferenceCommand& command) {
-    const uvec2 size = parseSize(command.scene.size);
-    checkReferenceCommand(command, size);
+void trace(const ReferenceCommand& asked) {
+    const uvec2 size = parseSize(asked.scene.size);
+    checkReferenceCommand(asked, size);
+    ReferenceCommand command = asked;
+    const Films films(command.outputs, size.x, size.y);
     const Settings settings = loadSettings(command.scene);
     const ReferenceOptions options = referenceOptions(command, settings);
+    std::vector<std::string> outputs = films.names();
+    outputs.push_back(command.scene.saveView);
+    tryOutputs(outputs, inputFiles(command.scene));
     checkOutputs(command.outputs, inputFiles(command.scene, {command.sequence.path}), "reference");
     const bool sequence = isSequence(command.outputs, command.sequence, command.frames);
     const Scene scene = loadScene(command.scene);
     const View view = loadView(command.scene, scene);
-    const TraceJob job{command, settings, options, scene, view, size};
+    const TraceJob job{command, settings, options, scene, view, size, films};
     if (sequence) {
         traceSequence(job);
     } else {

@@ -150,8 +150,10 @@ std::vector<const CLI::Option*> addReferenceOptions(CLI::App& command, Reference
     command
         .add_option(
             "-o,--output", options.outputs,
-            "Output image, .exr or .png; may be repeated. With a run of #, as in clean_####.exr, every frame is "
-            "written to the file of its number, and existing files are kept")
+            "Output image, .exr or .png, or film of --frames, .webp, .mp4 or .webm (by ffmpeg); may be repeated. With "
+            "a "
+            "run of #, as in clean_####.exr, every frame is written to the file of its number, and existing files are "
+            "kept")
         ->type_name("FILE")
         ->allow_extra_args(false);
     std::vector<const CLI::Option*> sequenceOptions = addSequenceOptions(command, options.sequence, false);
@@ -164,6 +166,7 @@ std::vector<const CLI::Option*> addReferenceOptions(CLI::App& command, Reference
     command.add_option("--threads", options.threads, "CPU threads, 0: one per core; the result does not depend on it")
         ->check(CLI::Range(0U, 4096U))
         ->capture_default_str();
+    addScriptOptions(command, options.script);
     command.footer(referenceFooter);
     return sequenceOptions;
 }

@@ -1,6 +1,7 @@
 // The command line of `reflet reference`.
 #pragma once
 
+#include "cli/script_arguments.h"
 #include "job/scene_options.h"
 #include "job/sequence_options.h"
 #include "reference/reference.h"
@@ -35,6 +36,7 @@ struct ReferenceCommand {
     std::optional<float> aoRadius;
     std::optional<float> aoFalloff;
     unsigned threads = 0;
+    ScriptOptions script;
 };
 
 /// Adds all options. Returns those that are for sequences only, as addSequenceOptions.

@@ -5,10 +5,13 @@
 #include "base/progress.h"
 #include "cli/commands.h"
 #include "cli/device_options.h"
+#include "cli/option_hints.h"
 #include "cli/output_files.h"
 #include "cli/scene_arguments.h"
+#include "cli/script_arguments.h"
 #include "cli/sequence_arguments.h"
 #include "device/device.h"
+#include "job/film.h"
 #include "job/sequence.h"
 #include "job/still.h"
 #include "renderer/history.h"
@@ -30,20 +33,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void checkOutputs(const RenderOptions& options) {
+struct RenderCommand {
+    RenderOptions options;
+    ScriptOptions script;
+};
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+void checkOutputs(const RenderOptions& options, const Films& films) {
+    if (films.any() && options.frames == 0) {
+        failUsage("-o {}: a film has several frames: add --frames N, or make a turntable (reflet turntable --help)",
+                  films.names().front());
+    }
     if (options.outputs.empty() && options.timings.empty() && !options.validate) {
         failUsage("nothing to write: add -o FILE.png or -o FILE.exr (see reflet render --help)");
     }
     for (const std::string& file : options.outputs) {
         if (const auto extension = fs::path(file).extension(); extension != ".png" && extension != ".exr") {
-            failUsage("-o {}: the name must end in .png or .exr", file);
+            failUsage("-o {}: the name must end in .png or .exr, of a film in .webp, .mp4 or .webm{}", file,
+                      endingHint(extension.string()));
         }
     }
     if (!options.aovs.empty() && std::ranges::none_of(options.outputs, isExr)) {
         failUsage("--aov needs an EXR output: add -o FILE.exr");
     }
     std::vector<std::string> outputs = options.outputs;
-    outputs.push_back(options.timings);
+    outputs.insert(outputs.end(), {options.timings, options.scene.saveView});
+    std::ranges::copy(films.names(), std::back_inserter(outputs));
     tryOutputs(outputs, inputFiles(options.scene, {options.sequence.path}));
 }
 
@@ -113,10 +131,40 @@ void refractByScreen(const RenderOptions& asked, const Scene& scene, Settings& s
     }
 }
 
-void render(const RenderOptions& asked) {
+// Renders what the options ask for. Returns the number of files or frames that were written.
+uint32_t renderJob(const RenderJob& job, bool sequence, bool still, std::chrono::steady_clock::time_point start) {
+    if (sequence) {
+        return renderSequence(job);
+    }
+    if (still) {
+        printNote(stillNote(job.options, job.settings));
+        renderStill(job, start);
+        writePictures(job);
+    } else {
+        renderOne(job);
+    }
+    return 1;
+}
+
+// Names of what is written: films by their own name, not by that of their frames.
+std::vector<std::string> writtenNames(const RenderOptions& options, const Films& films, uint32_t frames) {
+    std::vector<std::string> names;
+    for (const std::string& file : options.outputs) {
+        if (!films.hasFrames(file)) {
+            names.push_back(file);
+        }
+    }
+    std::ranges::copy(films.write(options.sequence.fps, options.sequence.firstFrame, frames),
+                      std::back_inserter(names));
+    return names;
+}
+
+void render(const RenderCommand& command) {
     const auto start = std::chrono::steady_clock::now();
+    const RenderOptions& asked = command.options;
     const uvec2 size = parseSize(asked.scene.size);
     RenderOptions options = asked;
+    const Films films(options.outputs, size.x, size.y);
     const bool still = isStill(options);
     if (still && options.scene.preset.empty()) {
         options.scene.preset = stillPreset(options);
@@ -124,13 +172,13 @@ void render(const RenderOptions& asked) {
     Settings settings = loadSettings(options.scene);
     Pictures pictures(options.show, options.aovs);
     pictures.prepare(settings);
-    checkOutputs(options);
+    checkOutputs(options, films);
     const bool sequence = isSequence(options.outputs, options.sequence, options.frames);
     const Scene scene = loadScene(options.scene);
     if (still) {
         refractByScreen(asked, scene, settings);
     }
-    options.frames = still ? 0 : framesFor(asked, settings, scene);
+    options.frames = still ? 0 : framesFor(options, settings, scene);
     const View view = loadView(options.scene, scene);
 
     gpu::Device device(programDevice(options.device, options.validate));
@@ -138,24 +186,22 @@ void render(const RenderOptions& asked) {
     Renderer renderer(device, scene, printWarning);
     Timings timings(!sequence);
     const RenderJob job{options, scene, view, settings, size, device, renderer, pictures, timings};
-    bool rendered = true;
-    if (sequence) {
-        rendered = renderSequence(job);
-    } else if (still) {
-        printNote(stillNote(options, settings));
-        renderStill(job, start);
-        writePictures(job);
-    } else {
-        renderOne(job);
-    }
-    if (!options.timings.empty() && rendered) {
+    const uint32_t rendered = renderJob(job, sequence, still, start);
+    if (!options.timings.empty() && rendered > 0) {
         writeTimings(job);
     } else if (!options.timings.empty()) {
         printWarning(fmt::format("{}: not written: all frames exist already, so none was rendered", options.timings));
     }
-    for (const std::string& file : options.outputs) {
+    const std::vector<std::string> written = writtenNames(options, films, options.frames);
+    for (const std::string& file : written) {
         tellWritten(sequence ? fmt::format("{} ({} frames)", file, options.frames) : file);
     }
+    printResult(command.script, {{"outputs", written},
+                                 {"size", {size.x, size.y}},
+                                 {"frames", sequence ? options.frames : 1},
+                                 {"rendered", rendered},
+                                 {"seconds", secondsSince(start)},
+                                 {"device", device.description().name}});
     if (options.validate && !device.validationMessages().empty()) {
         fail("the validation layers reported {} messages", device.validationMessages().size());
     }
@@ -164,13 +210,15 @@ void render(const RenderOptions& asked) {
 }  // namespace
 
 void addRenderCommand(CLI::App& app) {
-    auto options = std::make_shared<RenderOptions>();
-    CLI::App* command = app.add_subcommand("render", "Render a scene to PNG or EXR");
+    auto all = std::make_shared<RenderCommand>();
+    RenderOptions* options = &all->options;
+    CLI::App* command = app.add_subcommand("render", "Render a scene to PNG, EXR or a film");
     addSceneOptions(*command, options->scene);
     command
         ->add_option("-o,--output", options->outputs,
-                     "Output image, .png or .exr; may be repeated. With a run of #, as in picture_####.png, every "
-                     "frame is written to the file of its number, and existing files are kept")
+                     "Output image, .png or .exr, or film of --frames, .webp, .mp4 or .webm (by ffmpeg); may be "
+                     "repeated. With a run of #, as in picture_####.png, every frame is written to the file of its "
+                     "number, and existing files are kept")
         ->type_name("FILE")
         ->allow_extra_args(false);
     command
@@ -202,13 +250,16 @@ void addRenderCommand(CLI::App& app) {
             "Device time of every pass: medians over the frames after the first, or over all written frames of "
             "a sequence; with trace_screen.count_steps also mean steps and hit rate of the last frame's rays")
         ->type_name("F.json");
+    addScriptOptions(*command, all->script);
     command->add_flag("--validate", options->validate, "Enable the Vulkan validation layers; any message is a failure");
     command->footer(
         "Example: reflet render scene.glb --size 640x360 --set diffuse.rays=16 -o picture.png -o values.exr --aov "
-        "direct,normal\nreflet render scene.glb --frames 96 --path orbit -o round_####.png");
-    command->callback([options, sequenceOptions] {
-        checkSequenceOptions(sequenceOptions, options->outputs);
-        render(*options);
+        "direct,normal\nreflet render scene.glb --orbit 40,15 --fov 35 --sun -60,40 --save-view view.json -o "
+        "picture.png\n"
+        "reflet render scene.glb --frames 96 --path orbit -o round_####.png");
+    command->callback([all, sequenceOptions] {
+        checkSequenceOptions(sequenceOptions, all->options.outputs);
+        render(*all);
     });
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "capture/pictures.h"
+#include "cli/option_hints.h"
 #include "cli/output_files.h"
 #include "scene/gltf/gltf.h"
 
@@ -11,6 +12,49 @@
 #include <filesystem>
 
 namespace reflet {
+
+namespace {
+
+void addCameraArguments(CLI::App& command, SceneOptions& options) {
+    CameraOptions& o = options.placing;
+    command
+        .add_option("--orbit", o.orbit,
+                    "Camera around the scene: degrees from the front (+Z) to the right, degrees above the horizon, and "
+                    "metres or percent of the usual distance [100%: the scene fills the image; cameras with a target "
+                    "keep their distance]")
+        ->type_name("AZ,EL[,DISTANCE]");
+    command
+        .add_option("--look-at", o.lookAt,
+                    "What is in the middle of the image: a point in metres, or a node with a mesh, by name")
+        ->type_name("X,Y,Z|NODE");
+    command.add_option("--fov", o.fov, "Vertical field of view in degrees, 1 to 179")
+        ->check(CLI::Range(1.0, 179.0))
+        ->type_name("DEGREES");
+    command.add_option("--zoom", o.zoom, "Magnification, 0.01 to 100: 2 shows half of the image at twice the size")
+        ->check(CLI::Range(0.01, 100.0))
+        ->type_name("FACTOR");
+    command.add_option("--f-number", o.fNumber, "Depth of field of a full-frame lens, 0.01 to 1e6: 2.8 for f/2.8")
+        ->check(CLI::Range(0.01, 1e6))
+        ->type_name("N");
+    command
+        .add_option("--focus", o.focus,
+                    "What the lens focuses on: metres along the view, a point or a node [the camera's target]")
+        ->type_name("METRES|X,Y,Z|NODE");
+    command
+        .add_option("--sun", o.sun,
+                    "Where the sun is: degrees from the front (+Z) to the right, degrees above the horizon. A scene "
+                    "without a sun gets one")
+        ->type_name("AZ,EL");
+    command.add_option("--exposure", options.exposure, "Exposure in stops, -24 to 24: setting tonemap.exposure")
+        ->check(CLI::Range(-24.0, 24.0))
+        ->type_name("STOPS");
+    command
+        .add_option("--save-view", options.saveView,
+                    "Write camera, light and time that these options give to a file for --view-file")
+        ->type_name("V.json");
+}
+
+}  // namespace
 
 void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.add_option("SCENE", options.scene, "A .gltf or .glb file, or builtin:NAME (see reflet list scenes)")
@@ -36,6 +80,7 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
         }
     });
     addViewOptions(command, options);
+    addCameraArguments(command, options);
 }
 
 void addViewOptions(CLI::App& command, SceneOptions& options) {
@@ -78,7 +123,8 @@ void checkOutputs(const std::vector<std::string>& outputs, const InputFiles& inp
     }
     for (const std::string& file : outputs) {
         if (!isExr(file) && std::filesystem::path(file).extension() != ".png") {
-            failUsage("-o {}: the name must end in .exr or .png", file);
+            failUsage("-o {}: the name must end in .exr or .png{}", file,
+                      endingHint(std::filesystem::path(file).extension().string()));
         }
     }
     tryOutputs(outputs, inputs);

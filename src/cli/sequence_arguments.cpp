@@ -2,6 +2,7 @@
 #include "cli/sequence_arguments.h"
 
 #include "base/error.h"
+#include "job/film.h"
 #include "job/sequence_names.h"
 
 #include <CLI/CLI.hpp>
@@ -51,13 +52,15 @@ std::vector<const CLI::Option*> addSequenceOptions(CLI::App& command, SequenceOp
 }
 
 void checkSequenceOptions(const std::vector<const CLI::Option*>& options, const std::vector<std::string>& outputs) {
-    if (std::ranges::any_of(outputs, FrameNames::isPattern)) {
+    if (std::ranges::any_of(outputs, FrameNames::isPattern) || std::ranges::any_of(outputs, isFilm)) {
         return;
     }
     for (const CLI::Option* option : options) {
         if (option->count() > 0) {
-            failUsage("{} is only for sequences: name the output with a run of #, as in -o picture_####.png",
-                      option->get_name());
+            failUsage(
+                "{} is only for sequences: name the output with a run of #, as in -o picture_####.png, or as a film, "
+                "-o film.webp",
+                option->get_name());
         }
     }
 }

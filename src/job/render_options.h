@@ -1,4 +1,4 @@
-// The options of `reflet render`.
+// What is rendered, and to which files.
 #pragma once
 
 #include "job/scene_options.h"

@@ -3,7 +3,9 @@
 
 #include "base/color.h"
 #include "base/error.h"
+#include "base/file.h"
 #include "base/json.h"
+#include "base/json_text.h"
 #include "base/message.h"
 #include "base/text.h"
 #include "renderer/presets.h"
@@ -107,6 +109,9 @@ void printWarning(const std::string& message) {
 }
 
 void printNote(const std::string& message) {
+    if (isQuiet()) {
+        return;
+    }
     printMessage("note:", message);
 }
 
@@ -153,10 +158,20 @@ View loadView(const SceneOptions& options, const Scene& scene) {
         }
         view.time = *options.time;
     }
-    if (scene.cameras.empty() && view.camera == made && view.time > 0.0) {
+    const bool isFirst = options.camera.empty() && view.camera == made;
+    const bool automatic = isFirst && (scene.cameras.empty() || options.placing.wholeTurn);
+    if (isFirst && scene.cameras.empty() && view.time > 0.0) {
         view.camera = framingCamera(scene, aspect, view.time);  // what is animated is elsewhere then
     }
+    placeCamera(options.placing, scene, aspect, automatic, view);
+    placeSun(options.placing, view);
     chooseLight(options, scene, stated, view);
+    if (!options.placing.sun.empty() && !(luminance(view.sun.irradiance) > 0.0F)) {
+        view.sun.irradiance = defaultSun(view.camera).irradiance;  // there was none to turn
+    }
+    if (!options.saveView.empty()) {
+        writeFileAtomically(options.saveView, jsonText(viewJson(view), 2) + "\n");
+    }
     return view;
 }
 
@@ -179,6 +194,9 @@ void changeSettings(Settings& settings, const SceneOptions& options) {
     }
     for (const std::string& assignment : options.set) {
         setSetting(settings, assignment);
+    }
+    if (options.exposure) {
+        setSetting(settings, fmt::format("tonemap.exposure={}", *options.exposure));
     }
 }
 

@@ -1,6 +1,7 @@
 // What to render, as a user names it: the scene, the view, size, seed and settings.
 #pragma once
 
+#include "job/camera_options.h"
 #include "renderer/settings.h"
 #include "scene/scene.h"
 
@@ -17,6 +18,7 @@ struct SceneOptions {
     std::string up = "Y";  ///< the file's axis that points up: "Y" or "Z"
     std::string camera;
     std::string viewFile;
+    CameraOptions placing;    ///< after the view file
     std::string environment;  ///< "sky", "studio", "none" or a file; empty: the view file's, the scene's or a default
     std::string background;   ///< as parseBackground takes it; empty: the view file's or a default
     std::optional<double> time;  ///< seconds, overrides the view file
@@ -24,6 +26,8 @@ struct SceneOptions {
     std::string preset;
     std::vector<std::string> settingsFiles;
     std::vector<std::string> set;
+    std::optional<double> exposure;  ///< stops, overrides all settings
+    std::string saveView;            ///< view file to write
     uint32_t seed = 0;
     bool strict = false;  ///< invalid parts of a file are errors
 };
@@ -36,17 +40,18 @@ void printNote(const std::string& message);
 /// A file, or `builtin:NAME`. Warnings are printed.
 Scene loadScene(const SceneOptions& options);
 
-/// The scene's view, changed by --camera, --view-file, --environment, --background and --time. A file without enough
-/// light, with which none of these says what lights it, gets a default (scene/default_light.h), and a note says so.
+/// The scene's view, changed by --camera, --view-file, `placing`, --environment, --background and --time. A file
+/// without enough light, with which none of these says what lights it, gets a default (scene/default_light.h), and a
+/// note says so. Writes it to `saveView`, if that is named.
 View loadView(const SceneOptions& options, const Scene& scene);
 
 /// "1280x720". Throws UsageError.
 uvec2 parseSize(const std::string& text);
 
-/// Applies settings files, then --set, on top of `settings`.
+/// Applies settings files, then --set, then --exposure, on top of `settings`.
 void changeSettings(Settings& settings, const SceneOptions& options);
 
-/// Preset, then settings files, then --set, each overriding the ones before.
+/// Preset, then settings files, then --set and --exposure, each overriding the ones before.
 Settings loadSettings(const SceneOptions& options);
 
 }  // namespace reflet

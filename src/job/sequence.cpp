@@ -72,6 +72,8 @@ public:
         }
     }
 
+    [[nodiscard]] uint32_t written() const { return written_; }
+
 private:
     [[nodiscard]] uint32_t seed() const { return job_.options.scene.seed; }
 
@@ -107,7 +109,7 @@ private:
 
 }  // namespace
 
-bool renderSequence(const RenderJob& job) {
+uint32_t renderSequence(const RenderJob& job) {
     const InterruptNote note;
     const SequenceViews views(job.view, job.scene, job.options.sequence, job.options.frames);
     const SequencePlan plan = makePlan(job, views);
@@ -120,11 +122,11 @@ bool renderSequence(const RenderJob& job) {
     const Share share = parseShare(job.options.sequence.share);
     noteEmptyShare(plan, share);
     const auto runs = plan.runs(share, isMissing);
-    Progress progress("rendering frame", plan.work(runs));
+    Progress progress("rendering frame", plan.work(runs), "frames an hour");
     for (const SequencePlan::Run& run : runs) {
         writer.render(plan, run, progress);
     }
-    return !runs.empty();
+    return writer.written();
 }
 
 }  // namespace reflet

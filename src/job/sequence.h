@@ -22,8 +22,7 @@ struct RenderJob {
     Timings& timings;
 };
 
-/// Renders the frames of this share whose files are missing. Throws Error when interrupted. Returns whether there was
-/// anything to do.
-bool renderSequence(const RenderJob& job);
+/// Renders the frames of this share whose files are missing. Throws Error when interrupted. Returns how many it wrote.
+uint32_t renderSequence(const RenderJob& job);
 
 }  // namespace reflet

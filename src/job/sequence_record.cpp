@@ -9,6 +9,7 @@
 #include "job/fingerprint.h"
 #include "scene/camera_json.h"
 #include "scene/gltf/files.h"
+#include "scene/json_values.h"
 
 #include <algorithm>
 #include <array>
@@ -25,13 +26,18 @@ ordered_json numbers(const vec3& v) {
     return {v.x, v.y, v.z};
 }
 
+/// As in view files.
+double degrees(float radians) {
+    return double(radians) / radiansPerDegree;
+}
+
 ordered_json recordOf(const Environment& e) {
     if (!e.image) {
         return {{"radiance", numbers(e.radiance)}};
     }
     Fingerprint texels;
     texels.add(std::as_bytes(std::span(e.image->data)));
-    return {{"image", texels.text()}, {"intensity", e.intensity}, {"rotation", e.rotation}};
+    return {{"image", texels.text()}, {"intensity", e.intensity}, {"rotation", degrees(e.rotation)}};
 }
 
 // "settings.diffuse.rays was 4, is 8"
@@ -99,7 +105,7 @@ ordered_json recordOf(const View& view) {
                       {"sun",
                        {{"direction", numbers(view.sun.direction)},
                         {"irradiance", numbers(view.sun.irradiance)},
-                        {"angular_diameter", view.sun.angularDiameter}}},
+                        {"angular_diameter", degrees(view.sun.angularDiameter)}}},
                       {"environment", recordOf(view.environment)},
                       {"background", {static_cast<int>(view.background.mode), numbers(view.background.color)}},
                       {"time", view.time},

@@ -3,11 +3,11 @@
 
 #include "base/error.h"
 #include "base/progress.h"
+#include "job/noise_meter.h"
 #include "renderer/presets.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace reflet {
 
@@ -25,9 +25,8 @@ struct Effort {
 constexpr std::array efforts = {Effort{"draft", "balanced", 8.0, 4.0 / 255.0},
                                 Effort{"normal", "still", 30.0, 0.5 / 255.0},
                                 Effort{"high", "still", 600.0, 0.2 / 255.0}};
-constexpr uint32_t firstCheck = 8;  // frames: before, histories are too short to tell
-constexpr uint32_t fewest = 2;      // frames: those before the last show no light of a second bounce on screen
-constexpr uint32_t most = 4096;     // frames: histories do not grow beyond half of them
+constexpr uint32_t fewest = 2;   // frames: those before the last show no light of a second bounce on screen
+constexpr uint32_t most = 4096;  // frames: histories do not grow beyond half of them
 
 const Effort& effortOf(const RenderOptions& options) {
     const std::string_view name = options.effort.empty() ? "normal" : std::string_view(options.effort);
@@ -41,39 +40,6 @@ const Effort& effortOf(const RenderOptions& options) {
 double secondsOf(const RenderOptions& options) {
     return options.seconds > 0.0 ? options.seconds : effortOf(options).seconds;
 }
-
-// Root mean square difference of two pictures of 8-bit display values, 0 to 1.
-double difference(std::span<const std::byte> a, std::span<const std::byte> b) {
-    double sum = 0.0;
-    for (size_t i = 0; i < a.size(); ++i) {
-        const double d = std::to_integer<int>(a[i]) - std::to_integer<int>(b[i]);
-        sum += d * d;
-    }
-    return std::sqrt(sum / static_cast<double>(a.size())) / 255.0;
-}
-
-// The noise of a picture, by that of half its frames: where a mean of n frames has the variance s²/n, its difference
-// from that of the first half has the same.
-class NoiseMeter {
-public:
-    [[nodiscard]] bool wants(uint32_t frame) const { return frame + 1 >= next_; }
-
-    void add(uint32_t frame, std::span<const std::byte> display) {
-        if (!last_.empty()) {
-            noise_ = difference(last_, display);
-        }
-        last_.assign(display.begin(), display.end());
-        next_ = 2 * (frame + 1);
-    }
-
-    /// 0: not known yet.
-    [[nodiscard]] double noise() const { return noise_; }
-
-private:
-    std::vector<std::byte> last_;
-    double noise_ = 0.0;
-    uint32_t next_ = firstCheck;
-};
 
 }  // namespace
 

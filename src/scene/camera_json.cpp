@@ -22,6 +22,10 @@ ordered_json list(const vec3& v) {
     return {double(v.x), double(v.y), double(v.z)};  // as doubles, which convert back to the same floats
 }
 
+double unitOf(const CameraField& field) {
+    return field.kind == Kind::angle ? radiansPerDegree : 1.0;
+}
+
 uint32_t readCount(const JsonNode& node, const CameraField& field) {
     const double number = node.number(field.min, field.max, field.unit);
     if (number != std::floor(number) || (number > 0.0 && number < Camera::fewestBlades)) {
@@ -36,9 +40,8 @@ void readField(const JsonNode& node, const CameraField& field, Camera& camera) {
     } else if (const auto* count = std::get_if<uint32_t Camera::*>(&field.member)) {
         camera.** count = readCount(node, field);
     } else {
-        const double unit = field.kind == Kind::angle ? radiansPerDegree : 1.0;
         camera.*std::get<float Camera::*>(field.member) =
-            static_cast<float>(node.number(field.min, field.max, field.unit) * unit);
+            static_cast<float>(node.number(field.min, field.max, field.unit) * unitOf(field));
     }
 }
 
@@ -161,7 +164,7 @@ ordered_json cameraJson(const Camera& camera) {
         const bool placed = field.part != CameraField::Part::placement || camera.node < 0;
         const bool lens = field.part == CameraField::Part::lens;  // a pinhole is said, too: the scene's may be none
         if (field.inFiles && placed && (lens || applies(field, camera))) {
-            json[field.key] = valueOf(field, camera, field.kind == Kind::angle ? radiansPerDegree : 1.0);
+            json[field.key] = valueOf(field, camera, unitOf(field));
         }
     }
     addFocus(json, camera);
@@ -172,7 +175,7 @@ ordered_json cameraRecord(const Camera& camera) {
     ordered_json json;
     for (const CameraField& field : cameraFields()) {
         if (field.part != CameraField::Part::lens || applies(field, camera)) {
-            json[field.key] = valueOf(field, camera, 1.0);
+            json[field.key] = valueOf(field, camera, unitOf(field));
         }
     }
     if (camera.apertureRadius > 0.0F) {

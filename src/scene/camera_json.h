@@ -23,7 +23,7 @@ void readLens(const JsonNode& node, Camera& camera);
 /// What readCameraFields turns into the same camera: without the placement if a node moves it.
 nlohmann::ordered_json cameraJson(const Camera& camera);
 
-/// All values of a camera, in its own units; those of the lens only if it has an aperture.
+/// All values of a camera, in the units of view files; those of the lens only if it has an aperture.
 nlohmann::ordered_json cameraRecord(const Camera& camera);
 
 }  // namespace reflet

@@ -41,8 +41,24 @@ void requireInstance(const Scene& scene, const std::string& name, const std::str
     fail("{}: no node with a mesh is called '{}'{}", where, name, suggestion(name, names));
 }
 
-vec3 centerOf(const std::string& name, const Scene& scene, const ScenePose& pose) {
-    requireInstance(scene, name, "camera.focus");
+float distanceTo(const FocusTarget& target, const Camera& camera, const Scene& scene, const ScenePose& pose) {
+    switch (target.kind) {
+        case FocusTarget::Kind::distance:
+            return target.distance;
+        case FocusTarget::Kind::point:
+            return along(camera, target.point);
+        case FocusTarget::Kind::node:
+            return along(camera, centerOfNode(target.node, scene, pose, "camera.focus"));
+        case FocusTarget::Kind::automatic:
+            break;
+    }
+    return automaticFocus(camera, scene);
+}
+
+}  // namespace
+
+vec3 centerOfNode(const std::string& name, const Scene& scene, const ScenePose& pose, const std::string& where) {
+    requireInstance(scene, name, where);
     Aabb box;
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
@@ -53,22 +69,6 @@ vec3 centerOf(const std::string& name, const Scene& scene, const ScenePose& pose
     }
     return box.center();
 }
-
-float distanceTo(const FocusTarget& target, const Camera& camera, const Scene& scene, const ScenePose& pose) {
-    switch (target.kind) {
-        case FocusTarget::Kind::distance:
-            return target.distance;
-        case FocusTarget::Kind::point:
-            return along(camera, target.point);
-        case FocusTarget::Kind::node:
-            return along(camera, centerOf(target.node, scene, pose));
-        case FocusTarget::Kind::automatic:
-            break;
-    }
-    return automaticFocus(camera, scene);
-}
-
-}  // namespace
 
 bool hasFocusToFind(const Camera& camera) {
     return camera.apertureRadius > 0.0F && (!camera.focus.empty() || camera.focusDistance <= 0.0F);

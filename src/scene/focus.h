@@ -15,6 +15,10 @@ bool hasFocusToFind(const Camera& camera);
 /// behind the camera, the target. Throws Error for a name that no instance has.
 float foundFocus(const Camera& camera, const Scene& scene, const ScenePose& pose);
 
+/// The centre of the bounds of all instances of that name. Throws Error for a name that no instance has; where: begins
+/// the message.
+vec3 centerOfNode(const std::string& name, const Scene& scene, const ScenePose& pose, const std::string& where);
+
 /// Throws Error for a name that no instance has, suggesting the nearest. where: begins the message.
 void checkFocus(const Camera& camera, const Scene& scene, const std::string& where);
 

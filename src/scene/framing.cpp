@@ -255,6 +255,54 @@ Subject gather(const Scene& scene, const ScenePose& pose) {
     return subject;
 }
 
+Aabb boxAround(const std::vector<vec3>& points) {
+    Aabb box;
+    for (const vec3& p : points) {
+        box.add(p);
+    }
+    return box;
+}
+
+Camera cameraInside(const InsideView& inside, const Aabb& box) {
+    Camera camera;
+    camera.fovY = insideFov;
+    camera.position = inside.position;
+    camera.target = inside.target;
+    camera.near = nearPlane(glm::distance(inside.position, inside.target), 0.01F * glm::length(box.size()));
+    return camera;
+}
+
+// Where the points are during a turn around the vertical through `middle`: circles around it, of which those on the
+// convex outline of radius over height enclose all others.
+std::vector<vec3> turned(const std::vector<vec3>& points, const vec3& middle) {
+    std::vector<vec2> profile;  // height, radius
+    for (const vec3& p : points) {
+        profile.emplace_back(p.y, std::hypot(p.x - middle.x, p.z - middle.z));
+    }
+    std::ranges::sort(profile, [](const vec2& a, const vec2& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+    std::vector<vec2> outline;  // the upper convex hull, by A. M. Andrew's monotone chain (1979)
+    for (const vec2& p : profile) {
+        const auto isInside = [&] {
+            const vec2 a = outline[outline.size() - 2];
+            const vec2 b = outline.back();
+            return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x) >= 0.0F;
+        };
+        while (outline.size() >= 2 && isInside()) {
+            outline.pop_back();
+        }
+        outline.push_back(p);
+    }
+    constexpr int steps = 96;
+    std::vector<vec3> circles;
+    for (const vec2& p : outline) {
+        for (int i = 0; i < steps; ++i) {
+            const float angle = 2.0F * pi * float(i) / float(steps);
+            circles.emplace_back(middle.x + p.y * std::sin(angle), p.x, middle.z + p.y * std::cos(angle));
+        }
+    }
+    return circles;
+}
+
 }  // namespace
 
 Camera fitCamera(const std::vector<vec3>& points, const vec3& forward, float fovY, float aspect, const vec3& up) {
@@ -295,22 +343,40 @@ Camera framingCamera(const Scene& scene, float aspect, double time) {
     if (subject.points.empty()) {
         return {};
     }
-    Aabb box;
-    for (const vec3& p : subject.points) {
-        box.add(p);
-    }
+    const Aabb box = boxAround(subject.points);
     const std::optional<vec3> forward = bestViewDirection(subject.triangles, box);
     if (!forward) {
         if (const std::optional<InsideView> inside = viewInside(subject.triangles, box)) {
-            Camera camera;
-            camera.fovY = insideFov;
-            camera.position = inside->position;
-            camera.target = inside->target;
-            camera.near = nearPlane(glm::distance(inside->position, inside->target), 0.01F * glm::length(box.size()));
-            return camera;
+            return cameraInside(*inside, box);
         }
     }
     return fitCamera(subject.points, forward.value_or(threeQuarterView()), usualFov, aspect);
+}
+
+TurningCamera turningCamera(const Scene& scene, float aspect, double time, const std::optional<vec3>& forward,
+                            float fovY, const vec3& up) {
+    const Subject subject = gather(scene, scenePose(scene, time));
+    if (subject.points.empty()) {
+        return {};
+    }
+    const Aabb box = boxAround(subject.points);
+    const std::optional<vec3> best = forward ? forward : bestViewDirection(subject.triangles, box);
+    if (!best) {
+        if (const std::optional<InsideView> inside = viewInside(subject.triangles, box)) {
+            return {cameraInside(*inside, box), inside->position};
+        }
+    }
+    const vec3 along = best.value_or(threeQuarterView());
+    Camera camera = fitCamera(turned(subject.points, box.center()), along, fovY > 0.0F ? fovY : usualFov, aspect, up);
+    camera.up = up;
+    // The target moves along the view to the axis.
+    const vec2 toAxis(box.center().x - camera.position.x, box.center().z - camera.position.z);
+    const vec2 ahead(along.x, along.z);
+    const float distance = glm::dot(toAxis, ahead) / std::max(glm::dot(ahead, ahead), 1e-12F);
+    if (distance > 0.0F) {
+        camera.target = camera.position + distance * along;
+    }
+    return {camera, camera.target};
 }
 
 void frameScene(Camera& camera, const Scene& scene, float aspect, double time) {

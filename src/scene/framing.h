@@ -3,6 +3,7 @@
 
 #include "scene/scene.h"
 
+#include <optional>
 #include <vector>
 
 namespace reflet {
@@ -25,6 +26,18 @@ Camera framingCamera(const Scene& scene, float aspect, double time = 0.0);
 /// Moves a camera, perspective or orthographic, without turning it, to where it frames the same vertices; detaches it
 /// from its node. An empty scene leaves it where it is.
 void frameScene(Camera& camera, const Scene& scene, float aspect, double time = 0.0);
+
+/// A camera that goes around the scene, or turns within it.
+struct TurningCamera {
+    Camera camera;
+    vec3 pivot{0.0F};  ///< on the vertical axis that it goes around: its target; or its own position
+};
+
+/// The nearest camera from which a whole turn frames the same vertices: the axis is the middle of their bounds. It
+/// looks along `forward` (unit length, not vertical), or, without one, along the direction of framingCamera. Without
+/// `forward`, the camera of a closed room is inside and turns around itself. fovY: 0: the usual one.
+TurningCamera turningCamera(const Scene& scene, float aspect, double time, const std::optional<vec3>& forward,
+                            float fovY = 0.0F, const vec3& up = vec3(0, 1, 0));
 
 /// The default view (scene.h) of images of that aspect, if not 16:9.
 View defaultView(const Scene& scene, float aspect);

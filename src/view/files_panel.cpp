@@ -19,8 +19,8 @@ void FilesPanel::draw() {
     }
     work_.places.note("copy command line");
     tooltip(
-        "Copies a command that renders this image to the clipboard (Ctrl+C). Its view file is kept in the "
-        "configuration folder.");
+        "Copies a command that renders this image to the clipboard (Ctrl+C). What --orbit, --look-at, --fov and --sun "
+        "cannot say is in a view file, which is kept in the configuration folder.");
     ImGui::SameLine();
     if (ImGui::Button("browse", {button, 0.0F})) {
         const std::filesystem::path scene = work_.state.source.scene;

@@ -16,11 +16,12 @@ namespace {
 
 bool givesView(const SceneOptions& source) {
     return !source.camera.empty() || !source.viewFile.empty() || !source.environment.empty() ||
-           !source.background.empty() || source.time.has_value();
+           !source.background.empty() || source.placing.any() || source.time.has_value();
 }
 
 bool givesSettings(const SceneOptions& source) {
-    return !source.preset.empty() || !source.settingsFiles.empty() || !source.set.empty();
+    return !source.preset.empty() || !source.settingsFiles.empty() || !source.set.empty() ||
+           source.exposure.has_value();
 }
 
 }  // namespace

@@ -225,6 +225,7 @@ TEST_F(View, AScreenshotIsWhatRenderWritesAndAllComesBackTheNextTime) {
     click("compare nothing");
 
     isWhatRenderWrites("cubes-2.png");
+    EXPECT_NE(status()["notice"].get<std::string>().find(" --orbit "), std::string::npos) << "of a camera that turned";
     const json left = status();
     EXPECT_TRUE(quietSuccess(quit()));
 

@@ -33,6 +33,16 @@ TEST_F(WrongUse, AnUnknownOptionIsNamedWithTheNearest) {
     EXPECT_TRUE(refused(renderWith({"--siz", "8x8"}), usage, {"'--siz'", "did you mean '--size'", "--help"}));
     EXPECT_TRUE(refused(run({"list", "scenes", "--foo"}), usage, {"'--foo'", "reflet list scenes --help"}));
     EXPECT_TRUE(refused(renderWith({"second.glb"}), usage, {"'second.glb'", "--help"}));
+    EXPECT_TRUE(refused(renderWith({"--camera-orbit", "1,2"}), usage, {"'--camera-orbit'", "use --orbit AZ,EL"}));
+    EXPECT_TRUE(refused(renderWith({"--spp=64"}), usage, {"'--spp=64'", "--effort high"}));
+    EXPECT_TRUE(refused(run({"reference", cubes, "--samples", "9"}), usage, {"use --spp N"}));
+}
+
+TEST_F(WrongUse, CamerasByAnglesNameTheirRanges) {
+    EXPECT_TRUE(refused(renderWith({"--orbit", "-30,100"}), usage, {"--orbit", "-90 to 90", "'-30,100'"}));
+    EXPECT_TRUE(refused(renderWith({"--fov", "200"}), usage, {"--fov", "200", "179"}));
+    EXPECT_TRUE(refused(renderWith({"--sun", "1"}), usage, {"--sun", "-360 to 360"}));
+    EXPECT_TRUE(refused(render(cubes, {"-o", "a.jpg"}), usage, {"a.jpg", ".png", "JPEG"}));
 }
 
 TEST_F(WrongUse, AMissingSceneIsAskedFor) {

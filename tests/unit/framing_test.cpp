@@ -3,6 +3,7 @@
 
 #include "gltf_builder.h"
 #include "scene/builtin/assemble.h"
+#include "scene/camera_path.h"
 #include "scene/pose.h"
 
 #include <gtest/gtest.h>
@@ -119,6 +120,35 @@ TEST(Framing, ABoxIsSeenFromTheFrontTheRightAndAboveAndFillsTheImage) {
     EXPECT_GT(sideSeen(scene).z, 0.7F);
     EXPECT_GT(sideSeen(scene).x, 0.3F);
     EXPECT_GT(sideSeen(scene).y, 0.2F);
+}
+
+TEST(Framing, AWholeTurnShowsEverythingAndFillsTheImage) {
+    for (const Scene& scene : {sceneOf({box({-1, 0, -2}, {1, 3, 2})}), sceneOf({box({3, -1, 5}, {9, -0.9F, 5.2F})}),
+                               sceneOf({meshOf({vec3(0), vec3(1, -2, 0.5F), vec3(7, 0, 0)})}, true)}) {
+        for (const float aspect : aspects) {
+            const TurningCamera turning = turningCamera(scene, aspect, 0.0, std::nullopt);
+            Extent all;
+            for (int i = 0; i < 64; ++i) {
+                const Camera camera = orbit(turning.camera, turning.pivot, i / 64.0);
+                const Extent extent = extentOf(camera, allPoints(scene), aspect);
+                all.low = glm::min(all.low, extent.low);
+                all.high = glm::max(all.high, extent.high);
+                EXPECT_LT(camera.near, extent.nearest);
+            }
+            const vec2 size = all.high - all.low;
+            EXPECT_NEAR(std::max(size.x, size.y), framedShare, 0.01F) << aspect;
+            EXPECT_NEAR(all.low.x + all.high.x, 1.0F, 0.01F) << aspect;
+            EXPECT_NEAR(all.low.y + all.high.y, 1.0F, 0.01F) << aspect;
+        }
+    }
+}
+
+TEST(Framing, ATurnInAClosedRoomIsAroundTheCamera) {
+    const Scene room = sceneOf({box({-3, 0, -5}, {3, 3, 5}, true)}, true);
+    const TurningCamera turning = turningCamera(room, 1.5F, 0.0, std::nullopt);
+    EXPECT_EQ(turning.pivot, turning.camera.position);
+    EXPECT_EQ(turning.camera, framingCamera(room, 1.5F));
+    EXPECT_NE(turningCamera(room, 1.5F, 0.0, vec3(0, 0, -1)).pivot, turning.pivot) << "as asked, from outside";
 }
 
 TEST(Framing, NeedlesFillTheImageInEveryDirection) {
