@@ -24,7 +24,7 @@ protected:
     /// builtin:cubes, frames of an orbit at 64x36.
     static Arguments orbit(const Arguments& more, const std::string& frames = "6") {
         Arguments all{"render", "builtin:cubes", "--size", "64x36",    "--frames", frames,     "--path",
-                      "orbit",  "--segment",     "2",      "--warmup", "3",        "--preset", "plain"};
+                      "orbit",  "--segment",     "2",      "--warmup", "3",        "--preset", "direct"};
         all.insert(all.end(), history.begin(), history.end());
         all.insert(all.end(), more.begin(), more.end());
         return all;
