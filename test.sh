@@ -36,10 +36,8 @@ failures=()
 declare -A seconds=() good=() bad=()
 # Shards run side by side: a driver that renders on the CPU gets its share of the cores.
 export LP_NUM_THREADS=${LP_NUM_THREADS-1}
-# With "nopt" Mesa's CPU driver compiles shaders without LLVM's optimization: most tests compile much and render little.
-# Those of this filter trace many rays.
-tracing='*PathTracing*:*Hybrid*:*SceneRays*:*TraceScene*'
-shaderCompiler=${GALLIVM_PERF-nopt}
+# Mesa's CPU driver compiles shaders without LLVM's optimization: tests compile much and render little.
+export GALLIVM_PERF=${GALLIVM_PERF-nopt}
 # That driver takes and returns much memory: huge pages that stay with the process halve the time that this takes.
 glibc=glibc.malloc
 export GLIBC_TUNABLES=${GLIBC_TUNABLES-$glibc.hugetlb=1:$glibc.top_pad=67108864:$glibc.trim_threshold=1000000000:$glibc.mmap_threshold=1000000000}
@@ -51,9 +49,6 @@ total() {  # report key
 
 runShard() {  # name program filter shard shards
     local base=$logs/$1.$4 start=$SECONDS status=0
-    GALLIVM_PERF=$shaderCompiler
-    [[ "$1" != *_tracing ]] || GALLIVM_PERF=
-    export GALLIVM_PERF
     [[ "$5" == 1 ]] || export GTEST_TOTAL_SHARDS=$5 GTEST_SHARD_INDEX=$4
     timeout "$limit" "$2" "--gtest_filter=$3" \
         "--gtest_output=json:$base.json" >"$base.log" 2>&1 || status=$?
@@ -101,31 +96,22 @@ addShards() {  # name program filter count
 addGroup() {  # name program filter number
     shards+=("$1 $2 $3 $4 1")
 }
-# Two processes, each with half of the suites: neighbours are tests of one effect.
-addHalves() {  # name program filter number
-    local suites half
-    mapfile -t suites < <("$2" --gtest_list_tests "--gtest_filter=$3" | sed -nE 's/^([^ ]+\.)( .*)?$/\1*/p')
-    half=$((${#suites[@]} / 2))
-    addGroup "$1" "$2" "$(IFS=:; echo "${suites[*]:0:half}")" "$4"
-    addGroup "$1" "$2" "$(IFS=:; echo "${suites[*]:half}")" "$(($4 + 1))"
-}
 # A program that runs another one with a Vulkan driver that is not the machine's.
 withDriver() {  # manifest program name
     printf '#!/bin/sh\nVK_DRIVER_FILES=%q VK_ICD_FILENAMES=%q exec %q "$@"\n' "$1" "$1" "$PWD/build/bin/$2" >"build/$3"
     chmod +x "build/$3"
 }
 # The longest first.
-addShards cli_tests build/bin/cli_tests "$filter" 4
 if [[ "$filter" != "*" ]]; then
+    addShards cli_tests build/bin/cli_tests "$filter" 4
     addShards pass_tests build/bin/pass_tests "$filter" 4
 else
-    presets='*SweepOfScene*:*Transients*:*LibraryPicture*:*SteadyState*'
-    settings='*SweepOfGroup*'
-    addGroup pass_tests build/bin/pass_tests "$presets" 0
-    addHalves pass_tests build/bin/pass_tests "*-*/*:$tracing:$presets" 1
-    addGroup pass_tests build/bin/pass_tests "*/*-$tracing:$presets:$settings" 3
-    addGroup pass_tests build/bin/pass_tests "$settings" 4
-    addGroup pass_tests_tracing build/bin/pass_tests "$tracing" 0
+    # Of whole presets, which need the same pipelines; of one effect after the other; of many scenes and settings.
+    presets='*SweepOfScene*:*Transients*:*LibraryPicture*:*SteadyState*:*PathTracing*:*Hybrid*:*SceneRays*:*TraceScene*:*ScaleMatrix*:*PictureSizes*'
+    addGroup pass_tests build/bin/pass_tests "*-*/*:$presets" 0
+    addShards cli_tests build/bin/cli_tests "$filter" 4
+    addGroup pass_tests build/bin/pass_tests "$presets" 1
+    addGroup pass_tests build/bin/pass_tests "*/*-$presets" 2
     # Some on another CPU driver than llvmpipe, which comes with Chromium: docs/devices.md says what differs there.
     swiftshader=/usr/lib/chromium/vk_swiftshader_icd.json
     if [[ -f "$swiftshader" ]]; then
@@ -169,7 +155,7 @@ for shard in "${shards[@]}"; do
     read -ra words <<<"$shard"
     readShard "${words[0]}" "${words[3]}"
 done
-for name in cli_tests pass_tests pass_tests_tracing pass_tests_swiftshader pass_tests_ray_query library_tests \
+for name in cli_tests pass_tests pass_tests_swiftshader pass_tests_ray_query library_tests \
     fault_tests fault_tests_second_driver shader_tests shader_tests_swiftshader reference_tests unit_tests gpu_compiler_tests; do
     [[ -z "${seconds[$name]-}" ]] || echo "$name: ${good[$name]} passed, ${bad[$name]} failed, ${seconds[$name]} s of one core"
 done
@@ -189,6 +175,17 @@ elif [[ -n "$python" ]] && "$python" -c 'import numpy' 2>/dev/null; then
     echo "python: $went passed, $broke failed, $((SECONDS - start)) s"
 else
     echo "tests of the Python package are skipped: there is no NumPy (Debian: python3-numpy)"
+fi
+# Other versions of clang-format format differently.
+if [[ "$filter" == "*" ]] && clang-format --version 2>/dev/null | grep -q 'version 14\.' && git rev-parse HEAD >/dev/null 2>&1; then
+    if git ls-files -z '*.cpp' '*.h' | xargs -0 clang-format --dry-run -Werror 2>"$logs/format.log"; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        failures+=("clang-format would change files, see $logs/format.log")
+    fi
+else
+    echo "not checked: the format (clang-format 14, a checkout, no filter)"
 fi
 # The sanitized build of the fuzz targets takes minutes, and so do they.
 if [[ -n "${REFLET_FUZZ_SMOKE-}" ]]; then

@@ -26,6 +26,7 @@ endif()
 target_link_libraries(reflet PUBLIC Vulkan::Headers)
 target_link_libraries(reflet PRIVATE $<BUILD_INTERFACE:reflet_options> $<BUILD_INTERFACE:glm::glm>
     $<BUILD_INTERFACE:fmt::fmt-header-only> $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)
+reflet_quick(reflet)
 set(library_presets src/renderer/presets/fast.json src/renderer/presets/balanced.json src/renderer/presets/quality.json)
 reflet_embed(reflet libraryPresets ${library_presets})
 # Templates of the C++ library are weak and visible whatever the flags say; the list of exports is what counts.
@@ -47,6 +48,8 @@ if(REFLET_TESTS AND NOT BUILD_SHARED_LIBS AND UNIX AND NOT APPLE) # the shared l
     target_link_options(reflet_exports PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map)
     target_link_libraries(reflet_exports PRIVATE reflet_options Vulkan::Headers glm::glm fmt::fmt-header-only
         nlohmann_json::nlohmann_json)
+    set_target_properties(reflet_exports PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    reflet_quick(reflet_exports)
 elseif(REFLET_TESTS)
     add_library(reflet_exports ALIAS reflet)
 endif()

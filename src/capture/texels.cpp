@@ -1,8 +1,8 @@
 // Decodes read-back images.
 #include "capture/texels.h"
 
-#include "base/octahedral.h"
 #include "base/error.h"
+#include "base/octahedral.h"
 
 #include <glm/gtc/packing.hpp>
 

@@ -131,9 +131,8 @@ public:
     }
 
     void write(const View& view, const std::vector<std::filesystem::path>& files) {
-        const ViewParams params = makeViewParams(view.camera, job_.size, 0, job_.options.scene.seed);
         for (const std::filesystem::path& file : files) {
-            job_.pictures.write(file.string(), job_.renderer.frame(), params);
+            job_.pictures.write(file.string(), job_.renderer.frame(), view, job_.size);
         }
         ++written_;
     }

@@ -23,7 +23,8 @@ LightSample lampAt(const Lamp& lamp, const vec3& p) {
     s.toLight = toLamp / s.distance;
     s.light = lamp.intensity / (s.distance * s.distance);
     if (lamp.range > 0.0F) {
-        s.light *= std::clamp(1.0F - std::pow(s.distance / lamp.range, 4.0F), 0.0F, 1.0F);
+        const float square = s.distance * s.distance / (lamp.range * lamp.range);
+        s.light *= std::clamp(1.0F - square * square, 0.0F, 1.0F);
     }
     if (lamp.type == Lamp::Type::spot) {
         const float inner = std::cos(lamp.innerAngle);

@@ -74,7 +74,8 @@ std::vector<LampParams> reflectedSuns(std::span<const FlatPiece> pieces, const v
         const float facing = glm::dot(vec3(piece.plane), toSun);
         const FlatPiece lit = facing < 0.0F && piece.doubleSided ? turnedOver(piece) : piece;
         const float cosine = glm::dot(vec3(lit.plane), toSun);
-        if (piece.roughness <= smoothest && !piece.bumpy && cosine > leastFacing && piece.area >= leastFilled * areaOf(piece) &&
+        if (piece.roughness <= smoothest && !piece.bumpy && cosine > leastFacing &&
+            piece.area >= leastFilled * areaOf(piece) &&
             luminance(reflectanceAt(piece.f0, cosine)) >= leastReflectance) {
             add(mirrors, lit);
         }

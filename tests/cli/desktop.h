@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include <array>
+#include <chrono>
 #include <functional>
 #include <string>
 
@@ -31,7 +32,7 @@ protected:
 
     /// The window's own status report.
     [[nodiscard]] nlohmann::json status() const;
-    /// Waits until the status satisfies `wanted`; false on timeout.
+    /// Waits until the status satisfies `wanted`; false on timeout, which follows how fast this machine is.
     [[nodiscard]] bool shows(const std::function<bool(const nlohmann::json&)>& wanted) const;
     [[nodiscard]] bool atRest() const;
 
@@ -41,10 +42,6 @@ protected:
     void drag(double fromX, double fromY, double toX, double toY) const;
     /// keys: xdotool's names, such as "space" or "ctrl+q".
     void press(const std::string& keys) const;
-    /// Presses the key, and waits until the status says that it was answered, for a minute at most (longer with a
-    /// sanitizer).
-    [[nodiscard]] double millisecondsToAnswer(const std::string& key,
-                                              const std::function<bool(const nlohmann::json&)>& answered) const;
     void type(const std::string& text) const;
     void resize(uint32_t width, uint32_t height) const;
     /// Waits until the window has answered all input, for six seconds at most (longer with a sanitizer).
@@ -57,6 +54,7 @@ private:
     void reveal(const std::string& control) const;
     void use(const Arguments& arguments) const;
 
+    std::chrono::milliseconds patience_{0};  ///< longest wait, by the time that opening the viewer took
     int desktop_ = 0;
     int viewer_ = 0;
     std::string display_;

@@ -49,7 +49,7 @@ protected:
 
     /// The bytes of an EXR; the one line on standard error, if any, goes to `note_`.
     std::string picture(const std::string& scene, const Arguments& more) {
-        Arguments all{"-o", "a.exr"};
+        Arguments all{"-o", "a.exr", "--preset", "direct"};
         all.insert(all.end(), more.begin(), more.end());
         const Outcome done = render(scene, all);
         EXPECT_EQ(done.status, 0) << done.err;

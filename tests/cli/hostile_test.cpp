@@ -1,10 +1,12 @@
 // Broken or hostile input, and surroundings in which the program cannot work: one line and status 1, never a signal, a
 // hang or a file that is left behind.
+#include "base/json_text.h"
 #include "cli/program.h"
 #include "support/sanitizer.h"
 
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <csignal>
@@ -29,7 +31,7 @@ protected:
     }
 };
 
-const std::string renderCubes = "render builtin:cubes --preset plain --size 32x18 -o a.png";
+const std::string renderCubes = "render builtin:cubes --preset direct --size 32x18 -o a.png";
 const std::string deep = std::string(100000, '[') + std::string(100000, ']');
 
 TEST_F(Hostile, DeeplyNestedJsonIsAnErrorWhereverItIsRead) {
@@ -112,8 +114,13 @@ TEST_F(Hostile, AnOutputThatIsAFileOfTheSceneIsRefused) {
 // Only in the name of a sequence's frames does # stand for digits.
 TEST_F(Hostile, AFileMayHaveAnyNumberOfHashesInItsName) {
     write("#1#.json", "{}");
-    EXPECT_EQ(render("builtin:cubes", {"--settings", "#1#.json", "--timings", "a#b#.json"}).status, 0);
-    EXPECT_EQ(render("builtin:cubes", {"--settings", "#1#.json", "--timings", "a#b#.json"}).status, 0);
+    for (const char* written : {"first", "once more, over its own output"}) {
+        EXPECT_TRUE(quietSuccess(
+            render("builtin:cubes", {"--preset", "direct", "--settings", "#1#.json", "--timings", "a#b#.json"})))
+            << written;
+        EXPECT_EQ(files(), (std::vector<std::string>{"#1#.json", "a#b#.json"})) << written;
+        EXPECT_TRUE(parseJson(read("a#b#.json")).at("passes").contains("direct")) << written;
+    }
 }
 
 TEST_F(Hostile, TwoOutputsOfOneNameAreRefused) {
@@ -181,7 +188,7 @@ TEST_F(Hostile, AWarningToAClosedStandardErrorStopsNothing) {
                         "nodes": [{"mesh": 0}],
                         "accessors": [{"componentType": 5126, "count": 3, "type": "VEC3"}],
                         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}]})");
-    EXPECT_EQ(shell("", "render a.gltf --preset plain --size 32x18 -o a.png 2>/dev/full").status, 0);
+    EXPECT_EQ(shell("", "render a.gltf --preset direct --size 32x18 -o a.png 2>/dev/full").status, 0);
     EXPECT_TRUE(fs::exists(path("a.png")));
 }
 
@@ -298,7 +305,7 @@ TEST_F(Hostile, ReferencesFromTooFarAwaySeeNothing) {  // Embree ends the progra
 // Over 5 s: three processes that measure a scene.
 TEST_F(Hostile, ATruthCacheThatIsBrokenIsMadeAnew) {
     const Arguments bench{"bench", "builtin:cubes", "--size", "32x18",       "--frames", "1",      "--truth-cache",
-                          "cache", "--preset",      "plain",  "--truth-spp", "2",        "--json", "out.json"};
+                          "cache", "--preset",      "direct", "--truth-spp", "2",        "--json", "out.json"};
     const Outcome first = run(bench);
     ASSERT_EQ(first.status, 0) << first.err;
     for (const auto& entry : fs::directory_iterator(path("cache"))) {

@@ -51,7 +51,7 @@ TEST_F(Lists, MaterialVariantsOfAFileAreThoseThatRenderTakes) {
 
 TEST_F(Lists, PassesOfAFrameAreTablesOrDiagrams) {
     const auto passes = [&](const Arguments& more) {
-        Arguments all{"list", "passes", "builtin:cubes", "--size", "64x36", "--preset", "fast"};
+        Arguments all{"list", "passes", "builtin:cubes", "--size", "64x36", "--preset", "direct"};
         all.insert(all.end(), more.begin(), more.end());
         return run(all);
     };

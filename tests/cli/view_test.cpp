@@ -1,10 +1,8 @@
 // `reflet view` on a virtual desktop, with simulated input.
 #include "cli/desktop.h"
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <iostream>
 #include <thread>
 
 namespace reflet::view_test {
@@ -276,21 +274,9 @@ TEST_F(View, CompilesShadersThatAreEditedKeepsTheLastGoodOneAndLosesNothingWithT
     EXPECT_TRUE(quietSuccess(quit()));
 }
 
-// Frames of this size take the time of many redraws, and over 5 s in total. The latency is reported, not tested.
+// Over 5 s: frames of this size take the time of many redraws.
 TEST_F(View, AnswersWhileAFrameIsComputed) {
-    openViewer({"builtin:cave", "--size", "640x400", "--fresh", "--preset", "plain"});
-    std::vector<double> latencies;
-    for (int i = 0; i < 3; ++i) {
-        press("5");  // all is computed anew
-        const bool paused = status()["paused"];
-        latencies.push_back(
-            millisecondsToAnswer("space", [&](const json& now) { return now["paused"].get<bool>() != paused; }));
-        press("space");
-    }
-    std::ranges::sort(latencies);
-    std::cout << "a key is answered within " << latencies[latencies.size() / 2] << " ms (median), " << latencies.back()
-              << " ms (longest)\n";
-
+    openViewer({"builtin:cave", "--size", "400x400", "--fresh", "--preset", "plain"});
     // While the view moves, the picture is computed at a lower resolution, and at rest at the whole one.
     const auto from = inPicture(0.3, 0.5);
     const json still = status();

@@ -195,8 +195,8 @@ TEST(LampShadow, IsCastByTheStrongestAndTheOthersShineThroughEverythingWithAWarn
         ShadowSettings settings;
         settings.lamps = most;
         settings.lampResolution = resolution;
-        const LampShadows shadows =
-            planLampShadows(changed, settings, largestSide, 0.0F, [&](const std::string& text) { warnings.push_back(text); });
+        const LampShadows shadows = planLampShadows(changed, settings, largestSide, 0.0F,
+                                                    [&](const std::string& text) { warnings.push_back(text); });
         std::vector<uint32_t> indices;
         for (uint32_t i = 0; i < lamps.count; ++i) {
             indices.push_back(changed.lamps[i].shadow);

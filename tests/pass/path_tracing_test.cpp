@@ -1,11 +1,16 @@
 // Path tracing on the device (preset pathtrace) against the path tracer on the CPU, and the means over frames.
+#include "capture/show.h"
 #include "compare/compare.h"
 #include "pass/harness.h"
 #include "reference/reference.h"
 #include "renderer/presets.h"
 #include "scene/builtin.h"
+#include "support/device_fixture.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
+#include <map>
 
 namespace reflet::test::path_tracing_test {
 namespace {
@@ -18,25 +23,50 @@ Settings pathTracing() {
     return settings;
 }
 
-class PathTracing : public testing::TestWithParam<const char*> {};
+class PathTracing : public DeviceTest, public testing::WithParamInterface<const char*> {
+protected:
+    /// The layers after each of these numbers of frames of one run.
+    static std::vector<std::map<std::string, FloatImage>> after(const std::array<uint32_t, 2>& frames,
+                                                                const Scene& scene, const View& view,
+                                                                const std::vector<std::string>& layers) {
+        Renderer renderer(device(), scene, [](const std::string&) {});
+        std::vector<std::map<std::string, FloatImage>> all;
+        for (uint32_t i = 1; i <= frames.back(); ++i) {
+            std::vector<ShowReadback> readbacks;
+            renderer.render(view, size, 0, pathTracing(), [&](gpu::Frame& f, const FrameImages& images) {
+                for (const std::string& layer : layers) {
+                    readbacks.push_back(requestShow(f, images, findShow(layer)));
+                }
+            });
+            if (std::ranges::find(frames, i) != frames.end()) {
+                auto& values = all.emplace_back();
+                for (size_t k = 0; k < layers.size(); ++k) {
+                    values[layers[k]] =
+                        fetchValues(renderer.frame(), readbacks[k], makeViewParams(view.camera, size, 0, 0));
+                }
+            }
+        }
+        return all;
+    }
+};
 
-// Over 5 s: the error falls slowly, so hundreds of frames are traced.
+// Over 5 s: the error falls slowly, so many frames are traced.
 TEST_P(PathTracing, ComesNearerToTheReferenceAsTheNumberOfFramesGrows) {
     const Scene scene = findBuiltinScene(GetParam())->make();
     const View view = defaultView(scene);
-    const ReferencePicture truth = traceReference(scene, view, size, {.samples = 1024});
+    const ReferencePicture truth = traceReference(scene, view, size, {.samples = 384});
     const std::vector<std::string> layers{"direct", "indirect_diffuse"};
-    const Pictures after12 = render(scene, view, size, pathTracing(), layers, 12);
-    const Pictures after48 = render(scene, view, size, pathTracing(), layers, 48);
-    const auto differenceOf = [&](const Pictures& p, const char* layer, const FloatImage& expected) {
-        const Difference d = compareImages(p.images.at(layer), expected, {}).difference;
+    const auto layersAfter = after({12, 48}, scene, view, layers);
+    const auto differenceOf = [&](const std::map<std::string, FloatImage>& values, const char* layer,
+                                  const FloatImage& expected) {
+        const Difference d = compareImages(values.at(layer), expected, {}).difference;
         std::printf("%s %s: relative MSE %.5f, bias %+.4f\n", GetParam(), layer, d.relativeMse, d.bias);
         return d;
     };
     for (const auto& [layer, expected] :
          {std::pair("direct", &truth.direct), std::pair("indirect_diffuse", &truth.indirectDiffuse)}) {
-        const Difference few = differenceOf(after12, layer, *expected);
-        const Difference many = differenceOf(after48, layer, *expected);
+        const Difference few = differenceOf(layersAfter[0], layer, *expected);
+        const Difference many = differenceOf(layersAfter[1], layer, *expected);
         EXPECT_LT(many.relativeMse, 0.36 * few.relativeMse) << layer;  // a quarter, were both without bias
         EXPECT_LT(many.relativeMse, 0.03) << layer;
         EXPECT_NEAR(many.bias, 0.0, 0.015) << layer;

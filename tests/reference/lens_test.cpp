@@ -9,7 +9,7 @@ namespace reflet::test::lens_test {
 namespace {
 
 constexpr uvec2 size{64, 64};
-constexpr float halfLight = 0.06F;  // metres
+constexpr float halfLight = 0.12F;  // metres
 constexpr float lightDistance = 6.0F;
 
 // A square light at the end of the view axis, before black.
@@ -48,7 +48,7 @@ Spot spotOf(const FloatImage& image) {
     return spot;
 }
 
-Spot traced(const Scene& scene, const View& view, uint32_t samples = 2048) {
+Spot traced(const Scene& scene, const View& view, uint32_t samples = 512) {
     return spotOf(traceReference(scene, view, size, lambert(0, samples)).direct);
 }
 

@@ -47,7 +47,7 @@ const uint reflectedInTile = 0x80000000u;
 
 struct LampTileParams {
     mat4 worldToTile[maxShadowedLamps * cubeFaces];  // into clip space
-    vec4 mirror[maxShadowedLamps];  // of a lamp that is a reflected sun: plane of its mirror; else 0
+    vec4 mirror[maxShadowedLamps];                   // of a lamp that is a reflected sun: plane of its mirror; else 0
 };
 
 struct LampVisibilityParams {

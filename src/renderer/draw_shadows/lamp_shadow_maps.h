@@ -14,8 +14,8 @@ namespace reflet {
 /// independent of the view, so that shadows do not pop as the camera moves. Sets the lamps' `shadow`. Tiles are halved
 /// in size until the atlas has at most `largestSide` texels a side. reach: of what casts shadows in reflected suns [m].
 /// Those come first; those without a tile get no light. `warn` receives messages about what is left out.
-LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, uint32_t largestSide,
-                            float reach, const std::function<void(const std::string&)>& warn);
+LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, uint32_t largestSide, float reach,
+                            const std::function<void(const std::string&)>& warn);
 
 /// Draws depth from the lamps, both sides of every surface: D32, reversed (near / distance along the tile's axis).
 gpu::Image drawLampShadowMap(gpu::PassList& f, gpu::KeptImage& own, const DrawList& list, const LampShadows& shadows);
