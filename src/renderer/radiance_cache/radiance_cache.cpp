@@ -9,7 +9,11 @@ namespace reflet {
 namespace {
 
 // Where all light has changed, what was known counts half after so many frames.
-constexpr float halfLife = 2.0F;
+constexpr float halfLife = 0.6F;
+
+// What is known in the first frames lacks bounces, as there was nothing to end in: it fades fast.
+constexpr uint32_t youth = 12;
+constexpr float keptYoung = 0.7F;
 
 }  // namespace
 
@@ -22,12 +26,14 @@ CacheBuffers RadianceCache::update(gpu::PassList& f, const RadianceCacheSettings
     const bool written = keys_.holds(f) && cells_.holds(f);
     const bool kept = written && generation_ == f.generation();
     generation_ = f.generation();
+    frames_ = kept ? frames_ + 1 : 0;
     const float atRest = 1.0F - 1.0F / static_cast<float>(settings.history);
     const float changed = std::min(atRest, std::exp2(-1.0F / halfLife));
+    const float keep = glm::mix(atRest, changed, std::clamp(change, 0.0F, 1.0F));
     f.compute("settle_cache", "settle_cache.comp")
         .write("cacheKeys", cache.keys)
         .write("cacheCells", cache.cells)
-        .params(SettleCacheParams{glm::mix(atRest, changed, std::clamp(change, 0.0F, 1.0F)), kept ? ~0U : 0U})
+        .params(SettleCacheParams{frames_ < youth ? std::min(keep, keptYoung) : keep, kept ? ~0U : 0U})
         .dispatch(cacheSlots);
     return cache;
 }

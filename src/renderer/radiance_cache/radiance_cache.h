@@ -23,7 +23,7 @@ SHARED_BEGIN
     VALUE(float, cellSize, 0.03, 0.001, 0.5,                                                                           \
           "Largest side of a cell, as a share of its distance from the camera; sides are powers of two in metres. "    \
           "Smaller: sharper indirect light at hits, fewer leaks, more noise.")                                         \
-    VALUE(uint, history, 50, 1, 10000,                                                                                 \
+    VALUE(uint, history, 16, 1, 10000,                                                                                 \
           "Frames whose light a cell remembers, about, while lights and surfaces stand still; where they change, it "  \
           "forgets faster by itself. More: less noise.")
 SETTINGS(RadianceCacheSettings, RADIANCE_CACHE_SETTINGS)
@@ -42,7 +42,7 @@ struct CacheCell {
     // Settled at the start of the frame.
     vec3 mean;     // incoming radiance, cosine-weighted
     float weight;  // samples that it stands for; 0: none yet
-    uint life;     // frames since its creation in the low half, frames since its last sample in the high half
+    uint idle;     // frames since its last sample
 };
 
 struct SettleCacheParams {
@@ -77,6 +77,7 @@ private:
     gpu::KeptBuffer keys_{"radiance_cache.keys"};
     gpu::KeptBuffer cells_{"radiance_cache.cells"};
     uint64_t generation_ = 0;
+    uint32_t frames_ = 0;  ///< since the table was empty
 };
 
 }  // namespace reflet

@@ -11,9 +11,6 @@ layout(scalar) uniform ParamsBlock {
 
 // A cell without samples is freed after so many frames.
 const uint longestIdle = 120u;
-// What a new cell knows is from when its neighbours were new, too, and lack bounces: for so many frames it fades fast.
-const uint youth = 16u;
-const float keepYoung = 0.8;
 
 const CacheCell noCell = CacheCell(0u, 0u, 0u, 0u, vec3(0.0), 0.0, 0u);
 
@@ -25,19 +22,18 @@ void main() {
         return;
     }
     CacheCell c = cacheCells.items[slot];
-    uint age = min((c.life & 0xffffu) + 1u, 0xffffu);
-    uint idle = c.count > 0u ? 0u : (c.life >> 16u) + 1u;
+    uint idle = c.count > 0u ? 0u : c.idle + 1u;
     if (key == 0u || idle > longestIdle) {
         cacheKeys.items[slot] = 0u;
         cacheCells.items[slot] = noCell;
         return;
     }
-    float kept = c.weight * (age < youth ? min(params.keep, keepYoung) : params.keep);
+    float kept = c.weight * params.keep;
     if (c.count > 0u) {
         vec3 sum = vec3(c.sumRed, c.sumGreen, c.sumBlue) / cacheScale(c);
         float samples = float(c.count);
         c.mean = (c.mean * kept + sum) / (kept + samples);
         kept += samples;
     }
-    cacheCells.items[slot] = CacheCell(0u, 0u, 0u, 0u, c.mean, kept, age | (idle << 16u));
+    cacheCells.items[slot] = CacheCell(0u, 0u, 0u, 0u, c.mean, kept, idle);
 }

@@ -12,7 +12,7 @@ struct CachedLight {
 const CachedLight noCachedLight = CachedLight(vec3(0.0), 0.0);
 
 // A cell of fewer samples is not trusted: paths go on, for so many bounces more.
-const float enoughSamples = 4.0;
+const float enoughSamples = 1.0;
 const uint bouncesPastCache = 3u;
 // Share of the paths that go on behind a known cell and feed it.
 const float feedingShare = 0.25;
@@ -40,16 +40,33 @@ CachedLight cachedLight(LitPoint at, inout uint random) {
     return own.weight >= near.weight ? own : near;
 }
 
-uint cellToFeed(LitPoint at) {
-    if (endsInCache == 0u) {
-        return noCacheSlot;
+// Cells on a path, and what was known when it left them: what it finds from there on is a sample of their light.
+const uint mostToldCells = 4u;
+struct ToldCells {
+    uint count;
+    uint slots[mostToldCells];
+    vec3 radiance[mostToldCells];    // of the path before
+    vec3 throughput[mostToldCells];  // of what comes after
+};
+
+void tellLater(inout ToldCells told, LitPoint at, vec3 radiance, vec3 throughput) {
+    if (endsInCache == 0u || told.count == mostToldCells) {
+        return;
     }
-    return findOrAddCacheCell(cachePlace(at.position, at.normal, cacheCellSide(at.position, params.view.eye, params.cellSize)));
+    float side = cacheCellSide(at.position, params.view.eye, params.cellSize);
+    told.slots[told.count] = findOrAddCacheCell(cachePlace(at.position, at.normal, side));
+    told.radiance[told.count] = radiance;
+    told.throughput[told.count] = throughput;
+    ++told.count;
 }
 
-void feed(uint slot, vec3 radiance, inout uint random) {
-    if (slot != noCacheSlot) {
-        feedCache(slot, radiance, nextRandom(random));
+// radiance: of the whole path.
+void tellCells(ToldCells told, vec3 radiance, inout uint random) {
+    for (uint i = 0u; i < told.count; ++i) {
+        if (told.slots[i] != noCacheSlot) {
+            vec3 found = (radiance - told.radiance[i]) / max(told.throughput[i], vec3(1e-3));
+            feedCache(told.slots[i], found, nextRandom(random));
+        }
     }
 }
 

@@ -229,19 +229,17 @@ vec3 lightAtEnd(LitPoint at, CachedLight known) {
     return at.surface.diffuse * known.radiance + at.surface.specular * mirrored;
 }
 
-// Radiance along the ray from its hit. hitDistance: metres; negative: miss.
-vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
+// Radiance along the ray from its hit. hitDistance: metres; negative: miss. told: gets the cells that the path tells
+// what it finds.
+vec3 followPath(SceneRay ray, inout uint random, inout ToldCells told, out float hitDistance) {
     vec3 radiance = vec3(0.0);
     vec3 throughput = vec3(1.0);
     hitDistance = -1.0;
     bool diffuse = lobe == lobeDiffuse;
-    uint fed = noCacheSlot;  // the cell that the ray started from, if it tells that cell's light
     for (uint bounce = 0u;; ++bounce) {
         SceneHit hit;
         if (!closestHit(ray.origin, ray.direction, 0.0, sceneFar, hit)) {
-            vec3 behind = bounce > 0u ? environmentRadiance(ray.direction) : vec3(0.0);
-            feed(fed, behind, random);
-            return radiance + throughput * behind;
+            return radiance + (bounce > 0u ? throughput * environmentRadiance(ray.direction) : vec3(0.0));
         }
         hitDistance = bounce == 0u ? hit.distance : hitDistance;
         float width = params.mips != 0u ? ray.width + ray.spread * hit.distance : 0.0;
@@ -250,21 +248,15 @@ vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
         vec3 byLamps = anyEmitters != 0u && diffuse && found.emitter ? emitted : vec3(0.0);
         vec3 shown;
         if (reuseScreen != 0u && looksTheSame(found) && (bounce == 0u || params.fromPrevious != 0u) && screenLight(found, shown)) {
-            shown = max(shown - byLamps, vec3(0.0));
-            feed(fed, shown, random);
-            return radiance + throughput * shown;
+            return radiance + throughput * max(shown - byLamps, vec3(0.0));
         }
         LitPoint at = LitPoint(found.position, found.geometricNormal, found.normal, -ray.direction, found.clearance,
                                surfaceOf(found, -ray.direction));
         float sunVisible;
-        vec3 light = emitted - byLamps + sunAndLamps(at, random, sunVisible);
-        radiance += throughput * light;
+        radiance += throughput * (emitted - byLamps + sunAndLamps(at, random, sunVisible));
         CachedLight known = cachedLight(at, random);
-        bool ends = endsHere(bounce, known, random);
-        vec3 rest = ends || fed != noCacheSlot ? lightAtEnd(at, known) : vec3(0.0);
-        feed(fed, light + rest, random);
-        if (ends) {
-            return radiance + throughput * rest;
+        if (endsHere(bounce, known, random)) {
+            return radiance + throughput * lightAtEnd(at, known);
         }
         SceneRay next;
         throughput *= scatter(at, params.diffuseOnly != 0u, random, next, diffuse);
@@ -276,9 +268,19 @@ vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
         if (throughput == vec3(0.0)) {
             return radiance;
         }
-        fed = diffuse ? cellToFeed(at) : noCacheSlot;
+        if (diffuse) {
+            tellLater(told, at, radiance, throughput);
+        }
         ray = next;
     }
+}
+
+vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
+    ToldCells told;
+    told.count = 0u;
+    vec3 radiance = followPath(ray, random, told, hitDistance);
+    tellCells(told, radiance, random);
+    return radiance;
 }
 
 // Starts at the surface, not at the end of the screen-space march, which misses geometry thinner than a pixel (in the
