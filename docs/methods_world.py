@@ -24,7 +24,7 @@ def radiance_cache(page):
     rows = []
     for settings, name in (("radiance_cache.enabled=false", "off"), ("", "on"),
                            ("radiance_cache.cell_size=0.01", None), ("radiance_cache.cell_size=0.1", None),
-                           ("radiance_cache.cell_size=0.4", "coarse"),
+                           ("radiance_cache.cell_size=0.4", None),
                            ("trace_scene.light=path trace_scene.bounces=16", None)):
         frame = Settled("cave", "hybrid", settings)
         if name:

@@ -34,8 +34,10 @@ void motion(Texels t, const ShownPixel& at, float* out) {
     vec2 moved(t[0]);
     if (!(t[1].x > 0.0F) && at.rendered.eye.w != 0.0F) {
         const vec4 ahead = at.rendered.clipToWorld * vec4(2.0F * at.uv - 1.0F, 0.0F, 1.0F);
+        // By both matrices, so that a camera at rest gives exactly 0.
+        const vec4 now = at.rendered.worldToClip * vec4(vec3(ahead), 0.0F);
         const vec4 before = at.rendered.previousWorldToClip * vec4(vec3(ahead), 0.0F);
-        moved = before.w > 0.0F ? at.uv - (0.5F + 0.5F * vec2(before) / before.w) : vec2(0.0F);
+        moved = before.w > 0.0F ? 0.5F * (vec2(now) / now.w - vec2(before) / before.w) : vec2(0.0F);
     }
     std::memcpy(out, &moved, sizeof(moved));
 }

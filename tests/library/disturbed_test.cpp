@@ -212,7 +212,7 @@ protected:
         Library::TearDown();
     }
 
-    static constexpr uint32_t disturbedFrame = 4;
+    static constexpr uint32_t disturbedFrame = 6;
     static constexpr uint32_t cleanFrames = 8;
 
     Pictures record(VkCommandBuffer commands, uint32_t index, Frames frames, bool rests) {
