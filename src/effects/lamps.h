@@ -33,7 +33,7 @@ struct LampParams {
                          // Reflected: minus 1 / distance of `position` from the mirror's centre
     vec3 intensity;      // [W/sr]; directional: irradiance [W/m²]
     float spotScale;     // factor = clamp(cos · scale + offset, 0, 1)². Emitter: S.xx, S.yy as halfs. Reflected: half
-                         // the mirror's sides along rectangleAxes [m] as halfs
+                         // the mirror's sides along right and up of FlatPiece [m] as halfs
     float spotOffset;    // emitter: S.zz, S.xy. Reflected: the mirror's normal, packUnitVector
     float cosOuter;      // spot, reflected: cosine of the outer cone angle, beyond which it is dark. Emitter: S.xz,
                          // S.yz

@@ -30,7 +30,7 @@ float distanceToMirror(LampParams lamp, vec3 p) {
 float shareInMirror(LampParams lamp, vec3 p) {
     float away = distanceToMirror(lamp, p);
     vec3 n = unpackUnitVector(floatBitsToUint(lamp.spotOffset));
-    vec3 upward = abs(n.y) < 0.99 ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, -1.0);  // as rectangleAxes
+    vec3 upward = abs(n.y) < 0.99 ? vec3(0.0, 1.0, 0.0) : vec3(0.0, 0.0, -1.0);  // as up of FlatPiece
     vec3 up = normalize(upward - n * dot(upward, n));
     vec3 at = p + away * lamp.toLamp - (lamp.position + lamp.toLamp / lamp.inverseRange);
     vec2 within = unpackHalf2x16(floatBitsToUint(lamp.spotScale)) - abs(vec2(dot(at, cross(up, n)), dot(at, up)));
