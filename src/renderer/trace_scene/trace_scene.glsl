@@ -187,6 +187,7 @@ vec3 scatter(LitPoint at, bool diffuseOnly, inout uint random, out SceneRay next
     return l.z > 0.0 && dot(towards, at.geometricNormal) > 0.0 ? weight : vec3(0.0);
 }
 
+const float smoothestMirror = 0.05;  // as reflectedSuns counts mirrors
 const float roughest = 0.5;  // rougher lobes are taken for hemispheres
 
 vec3 probesOrEnvironment(vec3 position, vec3 direction, float roughness, bool hemisphere) {
@@ -253,7 +254,12 @@ vec3 followPath(SceneRay ray, inout uint random, inout ToldCells told, out float
         LitPoint at = LitPoint(found.position, found.geometricNormal, found.normal, -ray.direction, found.clearance,
                                surfaceOf(found, -ray.direction));
         float sunVisible;
-        radiance += throughput * (emitted - byLamps + sunAndLamps(at, random, sunVisible));
+        LitPoint lit = at;
+        if (anyReflected != 0u && diffuse && at.surface.roughness <= smoothestMirror) {
+            lit.surface.f0 = vec3(0.0);  // reflected suns bring what a mirror shows of the sun to diffuse surfaces
+            lit.surface.f90 = 0.0;
+        }
+        radiance += throughput * (emitted - byLamps + sunAndLamps(lit, random, sunVisible));
         CachedLight known = cachedLight(at, random);
         if (endsHere(bounce, known, random)) {
             return radiance + throughput * lightAtEnd(at, known);
