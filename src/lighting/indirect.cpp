@@ -93,6 +93,7 @@ LobeInputs inputsOf(const ViewContext& in, const LightingSettings& settings, uin
 
 ScreenImages screenForLobe(const ViewContext& in, uint32_t lobe, ScreenImages seen) {
     seen.leavesOutEmitters = in.emitterLamps && lobe == lobeDiffuse;
+    seen.leavesOutMirrors = in.reflectedSuns && lobe == lobeDiffuse;
     return seen;
 }
 

@@ -25,6 +25,8 @@ struct ViewContext {
     bool composes = true;       ///< each frame's light is composited, for the next one's rays to read
     bool emitterLamps =
         false;  ///< lamps stand for what surfaces with materialFlagEmitter emit: diffuse rays leave it out
+    bool reflectedSuns = false;  ///< lamps bring the sun's light by way of smooth mirrors
+    bool forProbe = false;       ///< a probe's view: with reflectedSuns, mirrors do not show the sun itself
 };
 
 /// Surfaces that a view sees: its G-buffer, and what stages have derived from it.

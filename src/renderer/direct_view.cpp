@@ -97,7 +97,9 @@ lighting::ViewContext contextOf(const ViewInputs& in, const Settings& settings) 
             .blueNoise = in.blueNoise,
             .lambertOnly = settings.materials.lambertOnly != 0,
             .unlit = in.draws.unlit,
-            .emitterLamps = anyEmitters(in.lamps)};
+            .emitterLamps = anyEmitters(in.lamps),
+            .reflectedSuns = anyReflected(in.lamps),
+            .forProbe = in.forProbe};
 }
 
 SceneLights sceneLights(const ViewInputs& in, const Settings& settings) {

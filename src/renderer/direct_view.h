@@ -32,6 +32,7 @@ struct ViewInputs {
     ProbeMaps probes{};                    ///< probes for rays; may be empty
     CacheBuffers cache{};                  ///< for rays through the scene; may be none
     vec4 clipPlane{0.0F};                  ///< as for drawGBuffer; zero: none
+    bool forProbe = false;                 ///< as in ViewContext
     std::optional<CameraMedium> medium{};  ///< of cameraMedium; only of the camera itself, not of sub-views
 };
 

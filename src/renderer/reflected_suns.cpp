@@ -13,7 +13,6 @@ namespace reflet {
 
 namespace {
 
-constexpr float smoothest = 0.05F;  // roughness: rougher surfaces blur the light, and rays find it
 constexpr float leastReflectance = 0.1F;
 constexpr float leastFilled = 0.95F;  // of the bounding rectangle
 constexpr float leastFacing = 0.02F;  // cosine
@@ -74,7 +73,7 @@ std::vector<LampParams> reflectedSuns(std::span<const FlatPiece> pieces, const v
         const float facing = glm::dot(vec3(piece.plane), toSun);
         const FlatPiece lit = facing < 0.0F && piece.doubleSided ? turnedOver(piece) : piece;
         const float cosine = glm::dot(vec3(lit.plane), toSun);
-        if (piece.roughness <= smoothest && !piece.bumpy && cosine > leastFacing &&
+        if (piece.roughness <= smoothestMirror && !piece.bumpy && cosine > leastFacing &&
             piece.area >= leastFilled * areaOf(piece) &&
             luminance(reflectanceAt(piece.f0, cosine)) >= leastReflectance) {
             add(mirrors, lit);

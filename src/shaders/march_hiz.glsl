@@ -13,16 +13,18 @@
 // Whether the traversal must descend: between the two distances, the ray is neither entirely in front of the cell nor
 // entirely behind it. occluded: set if it is behind; in a cell with sky, only the pixels can tell.
 bool mustDescend(vec2 depths, MarchRay ray, float first, float last, MarchOptions o, MarchView view,
-                 inout bool occluded) {
+                 inout bool behind, inout bool occluded) {
     float viewDistanceFirst = ray.viewDistanceStart + first * ray.viewDistanceStep;
     float viewDistanceLast = ray.viewDistanceStart + last * ray.viewDistanceStep;
     if (isInFrontOf(max(viewDistanceFirst, viewDistanceLast), depths.x, view)) {
+        behind = false;
         return false;
     }
     if (isInFrontOf(min(viewDistanceFirst, viewDistanceLast) - o.thickness, abs(depths.y), view) ||
         (depths.y < 0.0 && !occluded)) {
         return true;
     }
+    behind = true;
     occluded = true;
     return false;
 }
@@ -40,6 +42,7 @@ MarchResult marchHiz(MarchRay ray, MarchOptions o, MarchView view) {
     float first = 0.0;
     float last = 0.0;
     float clear = 0.0;
+    bool behind = false;
     bool occluded = false;
     bool ended = false;
     while (!ended && steps < o.maxSteps) {
@@ -51,8 +54,8 @@ MarchResult marchHiz(MarchRay ray, MarchOptions o, MarchView view) {
         float sLast = min(min(s.x, s.y), 1.0);
         float there = distanceAlong(r, sLast);
         ++steps;
-        bool descends = level > 0 && mustDescend(loadCell(cell, level), ray, first, there, o, view, occluded);
-        bool hit = level == 0 && hitsPixel(ray, pixel, first, there, o, view, occluded);
+        bool descends = level > 0 && mustDescend(loadCell(cell, level), ray, first, there, o, view, behind, occluded);
+        bool hit = level == 0 && hitsPixel(ray, pixel, first, there, o, view, behind, occluded);
         last = descends ? last : there;
         clear = descends || hit || occluded ? clear : there;
         // Exactly across one border; along the other axis to the ray's position, clamped to the cell.
@@ -61,7 +64,7 @@ MarchResult marchHiz(MarchRay ray, MarchOptions o, MarchView view) {
                                 : ivec2(across.x, corner.y + min(direction.y, 0));
         bool leaves = sLast >= 1.0 || any(lessThan(next, ivec2(0))) || any(greaterThan(next, lastPixel));
         ended = hit || (leaves && !descends);
-        outcome = hit ? marchHit : (ended ? (r.leavesScreen ? marchLeftScreen : marchLimitReached) : outcome);
+        outcome = hit ? (behind ? marchOccluded : marchHit) : (ended ? (r.leavesScreen ? marchLeftScreen : marchLimitReached) : outcome);
         // Of a coarser cell that it had to descend into, the ray tests all parts before it tries that level again.
         bool climbs = steps >= o.firstSteps && any(notEqual((next ^ pixel) >> (level + 1), ivec2(0)));
         pixel = ended || descends ? pixel : next;

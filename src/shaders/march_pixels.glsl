@@ -51,23 +51,28 @@ ScreenRay makeScreenRay(MarchRay ray, float maxDistance, MarchView view) {
     return r;
 }
 
-// Whether the ray, between two distances, is behind the depth of the pixel by less than its thickness. occluded: set if
-// the ray is behind it at all.
+// Whether the ray, between two distances, is behind the depth of the pixel by less than its thickness. behind: whether it
+// was behind what the pixel before shows; left set by a hit if the ray has not been in front of this surface either, so
+// that it got into it out of sight (marchOccluded): the screen does not show where. occluded: set if the ray passes
+// behind the pixel.
 bool hitsPixel(MarchRay ray, ivec2 pixel, float first, float last, MarchOptions o, MarchView view,
-               inout bool occluded) {
+               inout bool behind, inout bool occluded) {
     float depth = loadDepth(pixel);
     float viewDistanceFirst = ray.viewDistanceStart + first * ray.viewDistanceStep;
     float viewDistanceLast = ray.viewDistanceStart + last * ray.viewDistanceStep;
     if (isInFrontOf(max(viewDistanceFirst, viewDistanceLast), depth, view) || !isHittable(ray, pixel, depth, view)) {
+        behind = false;
         return false;
     }
-    occluded = true;
     float nearest = min(viewDistanceFirst, viewDistanceLast);
+    bool hit = isInFrontOf(nearest - o.thickness, depth, view);
     if (o.secondLayer) {
         float back = loadBackDepth(pixel);
-        return isInFrontOf(back > 0.0 ? nearest : nearest - o.thickness, back > 0.0 ? back : depth, view);
+        hit = isInFrontOf(back > 0.0 ? nearest : nearest - o.thickness, back > 0.0 ? back : depth, view);
     }
-    return isInFrontOf(nearest - o.thickness, depth, view);
+    behind = !hit || (behind && !isInFrontOf(nearest, depth, view));
+    occluded = occluded || !hit;
+    return hit;
 }
 
 // Distance at which the ray first hits the pixel, which it does between the two distances.
@@ -99,6 +104,7 @@ MarchResult marchExhaustive(MarchRay ray, MarchOptions o, MarchView view) {
     MarchResult result = emptyMarchResult();
     uint most = uint(view.size.x + view.size.y) + 2u;
     float first = 0.0;
+    bool behind = false;
     for (uint i = 0u; i < most; ++i) {
         vec2 s = borderCrossings(r, pixel + max(direction, ivec2(0)));
         float sLast = min(min(s.x, s.y), 1.0);
@@ -106,8 +112,8 @@ MarchResult marchExhaustive(MarchRay ray, MarchOptions o, MarchView view) {
         result.pixel = pixel;
         result.distance = last;
         result.steps = i + 1u;
-        if (hitsPixel(ray, pixel, first, last, o, view, result.occluded)) {
-            result.outcome = marchHit;
+        if (hitsPixel(ray, pixel, first, last, o, view, behind, result.occluded)) {
+            result.outcome = behind ? marchOccluded : marchHit;
             break;
         }
         result.clear = result.occluded ? result.clear : last;
@@ -178,6 +184,7 @@ MarchResult marchDda(MarchRay ray, MarchOptions o, MarchView view) {
     float sStep = o.stride / pixels;
     MarchResult result = emptyMarchResult();
     float first = distanceAlong(r, min(max(o.jitter - 0.5, 0.0) * sStep, 1.0));
+    bool behind = false;
     for (uint i = 0u; i < o.maxSteps; ++i) {
         float s = (float(i) + o.jitter) * sStep;
         if (s >= 1.0) {
@@ -187,10 +194,10 @@ MarchResult marchDda(MarchRay ray, MarchOptions o, MarchView view) {
         float last = distanceAlong(r, min(s + 0.5 * sStep, 1.0));
         result.pixel = clamp(ivec2(floor(r.start.xy + s * r.delta.xy)), ivec2(0), ivec2(view.size) - 1);
         result.steps = i + 1u;
-        if (hitsPixel(ray, result.pixel, first, last, o, view, result.occluded)) {
-            result.outcome = marchHit;
+        if (hitsPixel(ray, result.pixel, first, last, o, view, behind, result.occluded)) {
+            result.outcome = behind ? marchOccluded : marchHit;
             result.distance = distanceToPixelHit(ray, result.pixel, first, last, o, view);
-            bool refine = o.stride > 1.0 && (o.binarySteps > 0u || o.interpolate);  // a single pixel needs none
+            bool refine = !behind && o.stride > 1.0 && (o.binarySteps > 0u || o.interpolate);  // a single pixel needs none
             return refine ? refineDda(result, r, s, sStep, ray, o, view) : result;
         }
         result.distance = last;

@@ -14,6 +14,8 @@ layout(constant_id = 0) const uint lambertOnly = 0u;
 layout(constant_id = 1) const uint anyLamps = 1u;
 layout(constant_id = 3) const uint coloredSun = 0u;  // 1: glass has coloured the sunlight
 
+layout(constant_id = 4) const uint hidesSunInMirrors = 0u;
+
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { DirectParams params; };
 layout(scalar) uniform LampUniforms { LampBlock lampBlock; };
@@ -66,6 +68,10 @@ vec3 radianceAt(ivec2 pixel, out vec3 emitters) {
     vec3 radiance = emissionAt(texelFetch(emissive, pixel, 0).rgb, base, m, params.view.preExposure);
     Surface underSun = s;
     underSun.roughness = max(s.roughness, params.sunRoughness);
+    if (hidesSunInMirrors != 0u && s.roughness <= smoothestMirror) {
+        underSun.f0 = vec3(0.0);
+        underSun.f90 = 0.0;
+    }
     radiance += brdfTimesCosine(underSun, n, v, params.toSun) * params.sunIrradiance * visibility;
     for (uint first = 0u; anyLamps != 0u && first < lampBlock.count; first += lampsPerLayer) {
         uvec4 bits = lampMaskAt(pixel, first / lampsPerLayer);

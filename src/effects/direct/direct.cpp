@@ -41,6 +41,7 @@ DirectLight directLight(gpu::PassList& f, const GBuffer& g, const LightVisibilit
         .write("fromEmitters", apart ? fromEmitters : f.placeholder(direct.format))
         .constant("anyEmitters", emitters ? 1U : 0U)
         .constant("anyReflected", anyReflected(lights.lamps) ? 1U : 0U)
+        .constant("hidesSunInMirrors", lights.hidesSunInMirrors ? 1U : 0U)
         .constant("coloredSun", visibility.sun.format == VK_FORMAT_R8G8B8A8_UNORM ? 1U : 0U)
         .constant("anyLamps", lights.lamps.count > 0 ? 1U : 0U)
         .params(params)

@@ -41,6 +41,7 @@ struct DirectLights {
     const LampBlock& lamps;
     const EnvironmentLight& environment;  ///< the background
     bool lambertOnly = false;             ///< MaterialsSettings
+    bool hidesSunInMirrors = false;       ///< smooth mirrors do not reflect the sun
 };
 
 /// RGBA16F, alpha 1.

@@ -33,6 +33,10 @@ vec2 loadCell(ivec2 cell, int level) {
 // on colonnade (max_roughness 0.5) narrower is better, 2.4 by 5 % of the relative MSE.
 const float coneWidth = 3.4;
 
+// Pixels between a hit and the point where the ray meets the plane of what that pixel shows: more, and it met another
+// surface.
+const float sideSlack = 2.0;
+
 // Width in pixels of a cone's footprint at its hit.
 float widthOfHit(float roughness, MarchResult hit) {
     if (roughness == 0.0) {
@@ -58,10 +62,25 @@ MarchOptions screenOptions(ivec2 pixel, uint number) {
     return o;
 }
 
-// Whether the ray hit the far side of a visible surface, which the screen does not show.
-bool hitsBackOf(MarchResult hit, Ray ray) {
-    return rejectsBackfaces != 0u && hit.outcome == marchHit &&
-           dot(unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r), ray.direction) > 0.0;
+// Whether the ray hit something that the screen does not show: the far side of a visible surface, or its side, behind the
+// silhouette. There the ray meets the plane of the visible surface far from the pixel of the hit, if at all.
+bool hitsUnseen(MarchResult hit, vec3 p, Ray ray) {
+    if (rejectsBackfaces == 0u || hit.outcome != marchHit) {
+        return false;
+    }
+    if (hit.occluded && secondLayer == 0u) {
+        return true;
+    }
+    if (leavesOutMirrors != 0u && showsMirror(hit.pixel)) {
+        return true;
+    }
+    vec3 n = unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r);
+    float toward = -dot(n, ray.direction);
+    vec3 there = uvToWorld(pixelToUv(hit.pixel, params.view.pixel), loadDepth(hit.pixel), params.view.clipToWorld);
+    float height = dot(n, p - there);
+    vec4 clip = params.view.worldToClip * vec4(toward * p + height * ray.direction, toward);
+    vec2 across = ndcToUv(clip.xy / clip.w) * params.view.size - (vec2(hit.pixel) + 0.5);
+    return toward <= 0.0 || clip.w <= 0.0 || max(abs(across.x), abs(across.y)) > sideSlack;
 }
 
 // Writes the motion of the reflected image caused by the hit object's own motion.
@@ -86,10 +105,10 @@ vec3 lightInFront(vec3 p, vec3 direction, float clear) {
 }
 
 // Passes the unoccluded distance on to the next source, unless an earlier source found a longer one.
-void updateClearDistance(MarchResult hit, bool facesAway, vec3 p, vec3 direction, inout WaitingRay w) {
+void updateClearDistance(MarchResult hit, bool unseen, vec3 p, vec3 direction, inout WaitingRay w) {
     if (hit.clear >= w.clear) {
         w.clear = hit.clear;
-        w.lost = hit.occluded || facesAway;
+        w.lost = hit.occluded || unseen;
         w.inFront = w.lost ? lightInFront(p, direction, hit.clear) : vec3(0.0);
     }
 }

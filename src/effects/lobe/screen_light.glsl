@@ -4,6 +4,7 @@
 #define REFLET_SCREEN_LIGHT_GLSL
 
 #include "effects/gbuffer/gbuffer.glsl"
+#include "effects/lamps.h"
 #include "effects/levels.glsl"
 #include "effects/lobe/trace_screen.h"
 #include "shaders/half_float.glsl"
@@ -13,6 +14,7 @@
 layout(constant_id = 22) const uint cones = 0u;
 layout(constant_id = 29) const uint readsPrevious = 0u;
 layout(constant_id = 32) const uint leavesOutEmitters = 0u;
+layout(constant_id = 33) const uint leavesOutMirrors = 0u;
 
 layout(scalar) uniform ParamsBlock { TraceScreenParams params; };
 uniform sampler2D depth;
@@ -40,6 +42,12 @@ vec3 loadLight(ivec2 cell, int level) {
 }
 #include "effects/lobe/last_frame.glsl"
 #include "effects/light_mips/light_mips.glsl"
+
+// Whether the pixel shows a smooth metal. What the camera sees in it is not what others see.
+bool showsMirror(ivec2 pixel) {
+    MaterialTexel m = unpackMaterial(texelFetch(hitMaterial, pixel, 0));
+    return m.roughness <= smoothestMirror && m.metallic > 0.5;
+}
 
 // Of what the pixel shows, the radiance that lamps stand for.
 vec3 emitterAt(ivec2 pixel) {

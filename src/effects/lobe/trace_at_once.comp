@@ -62,9 +62,9 @@ float traceOnScreen(RayOrigin from, uint number, Ray ray, inout WaitingRay w, in
     MarchView view = marchView(params.view);
     MarchRay march = makeMarchRay(from.point, ray.direction, from.plane, view);
     MarchResult hit = marchBy(method, march, screenOptions(from.pixel, number), view);
-    bool facesAway = hitsBackOf(hit, ray);
-    updateClearDistance(hit, facesAway, from.point, ray.direction, w);
-    if (hit.outcome == marchHit && !facesAway) {
+    bool unseen = hitsUnseen(hit, from.point, ray);
+    updateClearDistance(hit, unseen, from.point, ray.direction, w);
+    if (hit.outcome == marchHit && !unseen) {
         if (tellsMotion != 0u && number == 0u) {
             writeReflectionMotion(from.pixel, ray, from.point, hit);
         }

@@ -44,15 +44,15 @@ RayAnswer traceAnswer(ivec3 slot, Ray ray, vec3 p, vec3 n, inout WaitingRay w) {
     if (countSteps != 0u) {
         imageStore(steps, slot, vec4(float(hit.steps)));
     }
-    bool facesAway = hitsBackOf(hit, ray);
-    updateClearDistance(hit, facesAway, p, ray.direction, w);
-    if (tellsMotion != 0u && slot.z == 0 && hit.outcome == marchHit && !facesAway) {
+    bool unseen = hitsUnseen(hit, p, ray);
+    updateClearDistance(hit, unseen, p, ray.direction, w);
+    if (tellsMotion != 0u && slot.z == 0 && hit.outcome == marchHit && !unseen) {
         writeReflectionMotion(slot.xy, ray, p, hit);
     }
     if (through == throughMirror) {
-        return facesAway ? noAnswer : shadeMirrorHit(hit, p, ray);
+        return unseen ? noAnswer : shadeMirrorHit(hit, p, ray);
     }
-    return hit.outcome != marchHit || facesAway ? noAnswer : answerOfHit(hit, p, ray);
+    return hit.outcome != marchHit || unseen ? noAnswer : answerOfHit(hit, p, ray);
 }
 
 RayAnswer answerRay(ivec3 slot, Ray ray, inout WaitingRay w) {

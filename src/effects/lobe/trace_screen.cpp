@@ -67,6 +67,7 @@ gpu::ComputePass& bindScreenLight(gpu::PassList& f, gpu::ComputePass& pass, cons
     return pass.constant("readsPrevious", params.settings.light == HitLight::previous ? 1U : 0U)
         .constant("secondLayer", seen.backDepth ? 1U : 0U)
         .constant("leavesOutEmitters", seen.leavesOutEmitters ? 1U : 0U)
+        .constant("leavesOutMirrors", seen.leavesOutMirrors ? 1U : 0U)
         .constant("cones", seen.lightMips ? 1U : 0U)
         .read("depth", seen.g.depth)
         .read("backDepth", seen.backDepth ? seen.backDepth : seen.g.depth)
@@ -74,7 +75,7 @@ gpu::ComputePass& bindScreenLight(gpu::PassList& f, gpu::ComputePass& pass, cons
         .read("motion", seen.g.motion)
         .read("light", light)
         .read("previousLit", previous ? seen.lit.previous : light)
-        .read("hitMaterial", seen.leavesOutEmitters ? seen.g.material : light)
+        .read("hitMaterial", seen.leavesOutEmitters || seen.leavesOutMirrors ? seen.g.material : light)
         .read("hitEmissive", seen.leavesOutEmitters ? seen.g.emissive : light)
         .read("lightMips", seen.lightMips ? seen.lightMips : light)
         .params(params);

@@ -67,7 +67,8 @@ CHOICES(HitLight, HIT_LIGHTS)
            "step covers (linear, halving). second_layer: up to the back face, from a second depth layer, where there " \
            "is one; draws the scene's back faces as well.")                                                            \
     SWITCH(rejectBackfaces, 1,                                                                                         \
-           "Treat a hit on the far side of a visible surface as a miss, because the screen does not show that side.")  \
+           "Treat a hit on the far side of a visible surface, or on its side behind the silhouette, as a miss, "       \
+           "because the screen does not show it.")                                                                     \
     VALUE(float, edgeFade, 0.0, 0.0, 0.5,                                                                              \
           "Fade out hits this close to the screen edge, as a fraction of the screen's size. Hides hard cut-offs of "   \
           "reflections.")                                                                                              \
@@ -119,6 +120,7 @@ struct ScreenImages {
     gpu::History lit;      ///< of the last frame, reprojected by the hit's motion
     gpu::Image
         lightMips;  ///< from makeLightMips, of the image that hits read; blurs the light at hits of cones (Ray.spread)
+    bool leavesOutMirrors = false;   ///< smooth metals answer no rays: what they show is the camera's alone
     bool leavesOutEmitters = false;  ///< hits do not read what surfaces with materialFlagEmitter emit
 };
 

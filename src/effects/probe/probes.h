@@ -28,13 +28,15 @@ CHOICES(ProbeParallax, PROBE_PARALLAXES)
     CHOICE(ProbeRefresh, refresh, once,                                                                                \
            "When probes are captured. once: all of them, and again when lights or probes change. face: one cube face " \
            "per frame, always with the current lighting. moving: as once, and again whenever something moved.")        \
-    VALUE(uint, bounces, 1, 0, 8,                                                                                      \
+    VALUE(uint, bounces, 2, 0, 8,                                                                                      \
           "Bounces of indirect light in the captures. Each costs one more capture that is lit by the previous one. "   \
           "With refresh face: 0 is none, otherwise each round over the faces adds one.")                               \
     CHOICE(ProbeParallax, parallax, depth,                                                                             \
            "Parallax correction. depth: march rays through the distances that the probe captured; box: intersect "     \
            "them with the probe's box (box projection), faster; none: the cube map is taken as infinitely far away.")  \
-    VALUE(float, blend, 0.25, 0.0, 100.0, "Distance outside of its box over which a probe fades out, in metres.")
+    VALUE(float, blend, 20.0, 0.0, 100.0,                                                                              \
+          "Distance outside of its box over which a probe fades out, in metres. Short: what no box reaches has only "  \
+          "the environment's light.")
 SETTINGS(ProbesSettings, PROBES_SETTINGS)
 
 const uint maxProbes = 16;

@@ -117,6 +117,7 @@ gpu::Image Probes::captureFace(gpu::PassList& f, const Capture& capture, uint32_
     const uvec2 size = distance_.info().size;
     const ProbeParams& probe = block_.probes[face / probeFaces];
     ViewInputs in = capture.in;
+    in.forProbe = true;
     in.view = makeViewParams(cubeFaceCamera({probe.position, {probe.boxMin, probe.boxMax}}, face % probeFaces), size,
                              in.view);
     const ViewImages images = directView(f, faces_, in, captureSettings(capture.settings), lampShadowMap);

@@ -187,7 +187,6 @@ vec3 scatter(LitPoint at, bool diffuseOnly, inout uint random, out SceneRay next
     return l.z > 0.0 && dot(towards, at.geometricNormal) > 0.0 ? weight : vec3(0.0);
 }
 
-const float smoothestMirror = 0.05;  // as reflectedSuns counts mirrors
 const float roughest = 0.5;  // rougher lobes are taken for hemispheres
 
 vec3 probesOrEnvironment(vec3 position, vec3 direction, float roughness, bool hemisphere) {
