@@ -23,7 +23,7 @@ using Images = std::map<std::string, FloatImage>;
 
 bool maySignify(std::string_view show) {  // images whose values may be negative
     return show == "normal" || show == "geometric_normal" || show == "bent_normal" || show == "motion" ||
-           show == "circle_of_confusion";
+           show == "circle_of_confusion" || show == "velocity_tiles";
 }
 
 void expectSound(const Images& images, const std::string& during) {
@@ -220,6 +220,7 @@ const std::vector<Context>& contexts() {
         {"environment.", {}, "mirror-hall"},
         {"dof.", {"dof.max_radius=0.25"}, "wide lens"},
         {"dof.reflections", {}, "wide mirror"},
+        {"motion_blur.", {"motion_blur.enabled=true", "motion_blur.max_length=0.3"}, "moving", 2, true},
         {"ao.", {"ao.method=bitmask"}},
         {"ao.method", {}},
         {"ao.thickness", {"ao.method=bitmask", "ao.radius=10"}, "colonnade"},
@@ -331,7 +332,7 @@ TEST_P(SweepOfScene, IsSoundInEveryShowAndWithEveryPreset) {
     const Settings all =
         settingsOf({"trace_screen.thickness_mode=second_layer", "trace_screen.count_steps=true", "shadow.cascades=2",
                     "probes.enabled=true", "probes.count=2", "probes.resolution=16", "temporal.enabled=true",
-                    "materials.anisotropy=1", "ao.method=bitmask"});
+                    "materials.anisotropy=1", "ao.method=bitmask", "motion_blur.enabled=true"});
     const Images images = scene.images(all);
     expectSound(images, GetParam());
     EXPECT_GT(rangeOf(images.at("final")).max, 0.05F) << "dark";
