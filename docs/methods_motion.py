@@ -8,7 +8,7 @@ from methods import CACHE, Frame, cached, read_png, run, write_png
 
 SCENE = "builtin:moving"
 WHEN = "--time 0.5 --fps 6 --size 320x180"
-LIGHT = "--bounces 1 --spp 256"
+LIGHT = "--bounces 1 --spp 96"
 PATH = "docs/methods/views/track-path.json"
 BOX = ((100, 85, 150, 80), 2)
 CUBE = ((60, 30, 107, 60), 3)
