@@ -12,7 +12,7 @@ LIGHT = "--bounces 1 --spp 96"
 PATH = "docs/methods/views/track-path.json"
 BOX = ((100, 85, 150, 80), 2)
 CUBE = ((60, 30, 107, 60), 3)
-WALL = ((150, 30, 150, 80), 2)
+WALL = ((100, 60, 150, 80), 2)
 
 
 class OneFrame(Frame):
@@ -73,9 +73,9 @@ def error(frame, truth, mask):
 def milliseconds(samples):
     """Time of each pass of the effect: the median of some runs' medians."""
     times = {}
-    for turn in range(4):
-        arguments = ["builtin:moving", "--preset", "balanced", "--size", "1280x720", "--path", "orbit", "--frames", str(8 + turn)]
-        arguments += ["--segment", "0", "--set", "motion_blur.enabled=true", "--set", "motion_blur.samples=%d" % samples]
+    for turn in range(2):
+        arguments = ["builtin:moving", "--preset", "balanced", "--size", "640x360", "--path", "orbit", "--frames", str(8 + turn)]
+        arguments += ["--segment", "0", "--warmup", "0", "--set", "motion_blur.enabled=true", "--set", "motion_blur.samples=%d" % samples]
         base = "%s/motion-cost-%d-%d" % (CACHE, samples, turn)
         if not os.path.exists(base + ".json"):
             run(["render"] + arguments + ["-o", base + "_####.png", "--timings", base + ".json"])
@@ -99,9 +99,10 @@ def motion_blur(page):
                 rows.append([name, "%g" % shutter, what, error(frame, truth, None), error(frame, truth, mask)])
             if shutter == 1.0:
                 for part, window in windows.items():
-                    page.picture(part + "-sharp", sharp, *window)
-                    page.picture(part + "-effect", frames[2][1], *window)
-                    page.picture(part + "-shutter", truth, *window)
+                    for kind, frame in (("sharp", sharp), ("effect", frames[2][1]), ("shutter", truth)):
+                        page.picture("%s-%s" % (part, kind), frame, *window)
+                        if frame.kind == "reference":  # sequences have a number in their names
+                            page.commands[-1] = page.commands[-1].replace(".png", "_####.png")
             else:
                 same = reference(path, 0, seed=1)
                 rows.append([name, "0", "other samples of the reference", error(same, sharp, None), error(same, sharp, mask)])
