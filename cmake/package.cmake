@@ -1,5 +1,5 @@
 # Packages: `cpack` in a build folder makes a tarball of what `cmake --install` installs, and, of a build with the shared
-# library (preset `package`), the Debian packages reflet (the program), libreflet0 and libreflet-dev.
+# library (preset `package`), the Debian packages reflet (the program), python3-reflet, libreflet0 and libreflet-dev.
 # packaging/check.sh makes them and tries them on a clean Debian.
 set(REFLET_MAINTAINER "The Reflet authors <maintainers@reflet.invalid>" CACHE STRING "Maintainer of the packages")
 set(REFLET_PACKAGE_REVISION 1)
@@ -12,6 +12,11 @@ set(CPACK_GENERATOR TGZ)
 set(CPACK_COMPONENTS_ALL library development)
 if(REFLET_PROGRAM)
     list(APPEND CPACK_COMPONENTS_ALL program)
+endif()
+if(REFLET_PROGRAM AND BUILD_SHARED_LIBS)  # others use pip: Debian's folder for modules is in no other prefix
+    list(APPEND CPACK_COMPONENTS_ALL python)
+    install(DIRECTORY python/reflet DESTINATION lib/python3/dist-packages COMPONENT python EXCLUDE_FROM_ALL
+        FILES_MATCHING PATTERN *.py PATTERN __pycache__ EXCLUDE)
 endif()
 
 if(BUILD_SHARED_LIBS)
@@ -60,6 +65,19 @@ ${effects}
 
 This package has the C header and what CMake and pkg-config need.")
 
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-reflet)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3:any, python3-numpy")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS reflet)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA
+    ${PROJECT_SOURCE_DIR}/packaging/python/postinst ${PROJECT_SOURCE_DIR}/packaging/python/prerm)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "reads data sets and images of Reflet in Python
+${effects}
+
+This package has the Python module: it reads data sets for denoisers and EXR
+files as NumPy arrays, and runs the program.")
+
 # Every Debian package has these under its own name; the tarball has them once for each, too.
 set(doc ${CMAKE_CURRENT_BINARY_DIR}/package)
 configure_file(packaging/changelog.in ${doc}/changelog.Debian @ONLY)
@@ -70,8 +88,13 @@ execute_process(COMMAND ${GZIP} -9nf ${doc}/changelog COMMAND_ERROR_IS_FATAL ANY
 set(package_of_program reflet)
 set(package_of_library ${library_package})
 set(package_of_development libreflet-dev)
+set(package_of_python python3-reflet)
 foreach(component IN LISTS CPACK_COMPONENTS_ALL)
+    set(only_packaged)
+    if(component STREQUAL python)
+        set(only_packaged EXCLUDE_FROM_ALL)
+    endif()
     install(FILES packaging/copyright ${doc}/changelog.Debian.gz ${doc}/changelog.gz
-        DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package_of_${component}} COMPONENT ${component})
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${package_of_${component}} COMPONENT ${component} ${only_packaged})
 endforeach()
 include(CPack)

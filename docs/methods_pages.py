@@ -4,6 +4,7 @@ import json
 
 import methods_dof
 import methods_glass
+import methods_motion
 import methods_reflections
 import methods_shadows
 import methods_slices
@@ -322,5 +323,5 @@ PAGES = {"steps-too-large": steps_too_large, "jitter": jitter, "refinement": ref
          "uniform-and-cosine": uniform_and_cosine, "mirror-to-matt": mirror_to_matt, "unknown": unknown,
          "second-layer": second_layer, "depth-precision": depth_precision, "noise": noise, "games202": games202,
          "temporal-upscaling": temporal_upscaling,
-         **methods_shadows.PAGES, **methods_reflections.PAGES, **methods_slices.PAGES, **methods_dof.PAGES, **methods_glass.PAGES,
+         **methods_shadows.PAGES, **methods_reflections.PAGES, **methods_slices.PAGES, **methods_dof.PAGES, **methods_motion.PAGES, **methods_glass.PAGES,
          **methods_world.PAGES}

@@ -12,7 +12,7 @@ cmake --build --preset package
 rm -rf "$built/packages"
 (cd "$built" && cpack -B packages)
 packages=("$built"/packages/*.deb)
-((${#packages[@]} == 3)) || { echo "check.sh: ${#packages[@]} packages, not 3" >&2; exit 1; }
+((${#packages[@]} == 4)) || { echo "check.sh: ${#packages[@]} packages, not 4" >&2; exit 1; }
 
 expect() {  # package file...
     local package=$1 file list
@@ -29,6 +29,17 @@ expect reflet usr/bin/reflet usr/share/man/man1/reflet.1.gz usr/share/bash-compl
 expect libreflet0 "$lib/libreflet.so.0" usr/share/doc/libreflet0/copyright
 expect libreflet-dev usr/include/reflet/reflet.h "$lib/libreflet.so" "$lib/pkgconfig/reflet.pc" \
     "$lib/cmake/reflet/refletConfig.cmake"
+expect python3-reflet usr/lib/python3/dist-packages/reflet/__init__.py usr/lib/python3/dist-packages/reflet/__main__.py \
+    usr/share/doc/python3-reflet/copyright
+hardened() {  # file
+    readelf -hW "$1" | grep -q 'Type: *DYN' || { echo "check.sh: $1 is not position independent" >&2; exit 1; }
+    readelf -lW "$1" | grep -q GNU_RELRO && readelf -dW "$1" | grep -q 'NOW' || { echo "check.sh: $1 has no full RELRO" >&2; exit 1; }
+    readelf -sW --dyn-syms "$1" | grep -q __stack_chk_fail || { echo "check.sh: $1 has no stack protector" >&2; exit 1; }
+    readelf -sW --dyn-syms "$1" | grep -q '_chk@GLIBC' || { echo "check.sh: $1 has no fortified calls" >&2; exit 1; }
+}
+hardened "$built/bin/reflet"
+hardened "$(find "$built" -name 'libreflet.so.0' | head -n 1)"
+packaging/sbom.sh "$built/packages" >"$built/packages/reflet.spdx"
 if command -v lintian >/dev/null; then
     lintian --fail-on error "${packages[@]}"
 else
@@ -53,7 +64,9 @@ inside 'apt-get -q update >/dev/null
     reflet --version
     reflet render builtin:cubes --size 64x36 -o /cubes.png
     test -s /cubes.png
-    reflet reference builtin:cubes --size 64x36 --spp 4 -o /reference.png'
+    reflet reference builtin:cubes --size 64x36 --spp 4 -o /reference.png
+    reflet dataset builtin:cubes -o /data --size 32x18 --frames 2 --spp 2 --noisy 1
+    python3 -m reflet check /data'
 inside 'apt-get -qq install -y --no-install-recommends cmake ninja-build gcc g++ glslc pkg-config >/dev/null
     cmake -S /example/c -B /built -G Ninja -DCMAKE_BUILD_TYPE=Release >/dev/null
     cmake --build /built >/dev/null
@@ -61,6 +74,6 @@ inside 'apt-get -qq install -y --no-install-recommends cmake ninja-build gcc g++
     ldd /built/reflet_c_example | grep libreflet.so.0
     printf "#include <reflet/reflet.h>\nint main(void) { return refletVersion() == REFLET_VERSION ? 0 : 1; }\n" >/use.c
     cc /use.c $(pkg-config --cflags --libs reflet) -o /use && /use
-    apt-get -qq purge -y reflet libreflet0 libreflet-dev >/dev/null
+    apt-get -qq purge -y reflet python3-reflet libreflet0 libreflet-dev >/dev/null
     test -z "$(find /usr -name "*reflet*")"'
 echo "the packages install, run, are built against and leave nothing behind on a clean $release"

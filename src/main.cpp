@@ -12,8 +12,8 @@ int main(int argc, char** argv) {
         reflet::addViewCommand,
 #endif
         reflet::addTurntableCommand, reflet::addContactSheetCommand, reflet::addReferenceCommand,
-        reflet::addDatasetCommand,   reflet::addDefocusCommand,      reflet::addCompareCommand,
-        reflet::addBenchCommand,     reflet::addReportCommand,       reflet::addQualifyCommand,
-        reflet::addListCommand,      reflet::addInfoCommand};
+        reflet::addDatasetCommand,   reflet::addDefocusCommand,      reflet::addMotionBlurCommand,
+        reflet::addCompareCommand,   reflet::addBenchCommand,        reflet::addReportCommand,
+        reflet::addQualifyCommand,   reflet::addListCommand,         reflet::addInfoCommand};
     return reflet::runProgram(argc, argv, commands);
 }

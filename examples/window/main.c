@@ -1,7 +1,7 @@
 /*
  * Reflet in a window: the room of the examples with a swap chain, resizing, and effects switched by keys.
  *
- * keys: 1 SSGI   2 SSR   3 contact shadows   4 antialiasing   left, right: turn   Escape: quit
+ * keys: 1 SSGI   2 SSR   3 contact shadows   4 antialiasing   5 motion blur   left, right: turn   Escape: quit
  * usage: reflet_window_example [FRAMES]      FRAMES: ends after so many
  */
 #include "host.h"
@@ -74,7 +74,7 @@ static bool make_chain(Host* h, Swap* s, GLFWwindow* window) {
 /* ---- effects ---- */
 
 typedef struct Switches {
-    bool diffuse, specular, contact, antialias;
+    bool diffuse, specular, contact, antialias, blur;
     float angle;
 } Switches;
 
@@ -88,14 +88,15 @@ static void on_key(GLFWwindow* window, int key, int code, int action, int modifi
         case GLFW_KEY_2: on->specular = !on->specular; break;
         case GLFW_KEY_3: on->contact = !on->contact; break;
         case GLFW_KEY_4: on->antialias = !on->antialias; break;
+        case GLFW_KEY_5: on->blur = !on->blur; break;
         case GLFW_KEY_LEFT: on->angle -= 0.05F; break;
         case GLFW_KEY_RIGHT: on->angle += 0.05F; break;
         case GLFW_KEY_ESCAPE: glfwSetWindowShouldClose(window, GLFW_TRUE); break;
         default: break;
     }
     char title[128];
-    snprintf(title, sizeof title, "Reflet: SSGI %s, SSR %s, contact shadows %s, TAA %s", on->diffuse ? "on" : "off",
-             on->specular ? "on" : "off", on->contact ? "on" : "off", on->antialias ? "on" : "off");
+    snprintf(title, sizeof title, "Reflet: SSGI %s, SSR %s, contact shadows %s, TAA %s, motion blur %s", on->diffuse ? "on" : "off",
+             on->specular ? "on" : "off", on->contact ? "on" : "off", on->antialias ? "on" : "off", on->blur ? "on" : "off");
     glfwSetWindowTitle(window, title);
 }
 
@@ -178,8 +179,9 @@ static RefletImage record_effects(Host* h, Slot* slot, RefletView view, RefletSe
     if (on->specular) reflet_check(refletReflections(view, settings, &light, &lobe));
     RefletComposite sum = {.structSize = sizeof sum};
     reflet_check(refletComposite(view, settings, &light.light, &sum));
-    RefletImage mean;
+    RefletImage mean, blurred;
     if (on->antialias) reflet_check(refletTemporal(view, settings, NULL, &mean));
+    if (on->blur) reflet_check(refletMotionBlur(view, settings, NULL, &blurred));
     reflet_check(refletToneMap(view, settings, NULL, 0, &display));
     reflet_check(refletEndFrame(view));
     return display;
@@ -217,8 +219,8 @@ int main(int count, char** arguments) {
         return 1;
     }
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-    GLFWwindow* window = glfwCreateWindow(640, 360, "Reflet: keys 1 to 4", NULL, NULL);
-    Switches on = {true, true, false, true, 0.35F};
+    GLFWwindow* window = glfwCreateWindow(640, 360, "Reflet: keys 1 to 5", NULL, NULL);
+    Switches on = {true, true, false, true, false, 0.35F};
     glfwSetWindowUserPointer(window, &on);
     glfwSetKeyCallback(window, on_key);
 
@@ -246,6 +248,7 @@ int main(int count, char** arguments) {
     RefletSettings settings;
     reflet_check(refletCreateSettings("fast", &settings));
     reflet_check(refletSetSetting(settings, "contact.distance", "0.2"));
+    reflet_check(refletSetSetting(settings, "motion_blur.enabled", "true")); /* key 5 */
 
     Camera cameras[2];
     float jitters[2][2] = {{0.0F, 0.0F}, {0.0F, 0.0F}}; /* of this frame and the last */

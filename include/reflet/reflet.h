@@ -794,9 +794,21 @@ REFLET_API RefletResult refletDepthOfField(RefletView view, RefletSettings setti
                                            const RefletImage* color, RefletImage* blurred);
 
 /**
+ * Motion blur, RGBA16F of the output's size, by the settings `motion_blur` (off by default: `motion_blur.enabled`;
+ * McGuire et al., 2012; Guertin, McGuire and Nowrouzezahrai, 2014; Jimenez, 2014): the shutter is open for
+ * `motion_blur.shutter` of the time since the last frame, half before this frame and half after it, and motion is
+ * constant: that of RefletGBuffer::motion, of the camera alone where it is absent and in the background. After a cut,
+ * give this frame's matrices as the last ones. color: linear radiance, of the output's size; NULL: the last of
+ * refletDepthOfField, refletTemporal and refletComposite that ran. With `motion_blur.enabled=false` or a shutter of 0:
+ * that picture.
+ */
+REFLET_API RefletResult refletMotionBlur(RefletView view, RefletSettings settings, const RefletImage* color,
+                                         RefletImage* blurred);
+
+/**
  * Tone map, RGBA8, display-encoded: `tonemap.curve`, `tonemap.exposure`. autoExposure 1: surfaces become middle grey on
  * average (histogram; Reinhard et al., 2002). color: linear radiance, of the output's size; NULL: the last of
- * refletDepthOfField, refletTemporal and refletComposite that ran.
+ * refletMotionBlur, refletDepthOfField, refletTemporal and refletComposite that ran.
  */
 REFLET_API RefletResult refletToneMap(RefletView view, RefletSettings settings, const RefletImage* color,
                                       uint32_t autoExposure, RefletImage* display);
@@ -824,9 +836,10 @@ typedef struct RefletToneMapInfo {
     const RefletImage* exposure;
     /**
      * The host's image, which is written: at least of the size of the picture (the output's; the frame's if neither
-     * refletTemporal nor refletDepthOfField ran and no color is given), with VK_IMAGE_USAGE_STORAGE_BIT, of a format of
-     * `format`. `layout` may be VK_IMAGE_LAYOUT_UNDEFINED: its content is lost, and it is left in
-     * VK_IMAGE_LAYOUT_GENERAL; another is restored. `stages`: that used it last. NULL: an image of the library's.
+     * refletTemporal, refletDepthOfField nor refletMotionBlur ran and no color is given), with
+     * VK_IMAGE_USAGE_STORAGE_BIT, of a format of `format`. `layout` may be VK_IMAGE_LAYOUT_UNDEFINED: its content is
+     * lost, and it is left in VK_IMAGE_LAYOUT_GENERAL; another is restored. `stages`: that used it last. NULL: an image
+     * of the library's.
      */
     const RefletImage* output;
     /**
@@ -982,7 +995,8 @@ typedef enum RefletEffect {
     REFLET_EFFECT_DEPTH_OF_FIELD = 1 << 9,
     REFLET_EFFECT_MISSED_DIFFUSE_RAYS = 1 << 10,    /**< refletMissedRays and refletAnswerRays of the diffuse lobe */
     REFLET_EFFECT_MISSED_REFLECTION_RAYS = 1 << 11, /**< and of the specular lobe */
-    REFLET_EFFECT_LAMP_SHADOWS = 1 << 12
+    REFLET_EFFECT_LAMP_SHADOWS = 1 << 12,
+    REFLET_EFFECT_MOTION_BLUR = 1 << 13
 } RefletEffect;
 
 /** What the frames to come will be. */
@@ -1039,8 +1053,8 @@ REFLET_API RefletResult refletPassTimes(RefletView view, uint32_t* count, Reflet
 
 /**
  * An intermediate image of the current frame: depth, normal, geometric_normal, base_color, material, motion, pyramid,
- * light, sun_visibility, lamp_visibility, ambient_occlusion, exposure, circle_of_confusion, diffuse, specular,
- * diffuse_confidence, specular_confidence. The error lists what there is.
+ * light, sun_visibility, lamp_visibility, ambient_occlusion, exposure, circle_of_confusion, velocity_tiles, diffuse,
+ * specular, diffuse_confidence, specular_confidence. The error lists what there is.
  */
 REFLET_API RefletResult refletFindImage(RefletView view, const char* name, RefletImage* image);
 

@@ -197,6 +197,7 @@ std::string describe(const RefletView_T& view) {
                                                     {bool(frame.composed), "composite"},
                                                     {bool(frame.antialiased), "temporal"},
                                                     {bool(frame.defocused), "depth of field"},
+                                                    {bool(frame.blurred), "motion blur"},
                                                     {bool(frame.display), "tone map"}};
     Lines ran;
     for (const auto& [there, name] : effects) {

@@ -91,7 +91,7 @@ DisplayInputs displayInputs(const RefletView_T& view, const Frame& frame, const 
         checkImage(*info.color, "color", {size, frame.inLarger}, 3);
     }
     // Without a picture of the output's size, the frame's own is shown.
-    const bool upscaled = info.color != nullptr || frame.antialiased || frame.defocused;
+    const bool upscaled = info.color != nullptr || frame.antialiased || frame.defocused || frame.blurred;
     if (info.output != nullptr) {
         checkOutput(*info.output, "RefletToneMapInfo.output", upscaled ? size : frame.size);
         if (isSame(info.color, *info.output) || isSame(info.exposure, *info.output)) {

@@ -210,3 +210,13 @@ RefletResult refletDepthOfField(RefletView view, RefletSettings settings, const 
                                                colorOf(color, host, {outputSizeOf(*view), frame.inLarger})));
     });
 }
+
+RefletResult refletMotionBlur(RefletView view, RefletSettings settings, const RefletImage* color,
+                              RefletImage* blurred) {
+    return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
+        checkOut(blurred, "blurred");
+        HostImages host(*view);
+        *blurred = resultOf(
+            recordMotionBlur(*view, frame, values, colorOf(color, host, {outputSizeOf(*view), frame.inLarger})));
+    });
+}

@@ -98,7 +98,7 @@ lighting::Light lightWith(const Frame& frame, gpu::Image radiance) {
     return light;
 }
 
-// The last picture of this frame before depth of field.
+// The last picture of this frame before depth of field and motion blur.
 gpu::Image pictureSoFar(const Frame& frame) {
     const gpu::Image radiance = frame.antialiased ? frame.antialiased : frame.composed;
     if (!radiance) {
@@ -147,6 +147,8 @@ void finishCall(RefletView_T& view, const Frame& frame) {
                                     frame.sharp,
                                     frame.defocused,
                                     frame.circleOfConfusion,
+                                    frame.blurred,
+                                    frame.velocityTiles,
                                     frame.sunVisibility,
                                     frame.lampVisibility,
                                     frame.ambientOcclusion,
@@ -166,10 +168,11 @@ void finishCall(RefletView_T& view, const Frame& frame) {
 }
 
 lighting::Light pictureToMap(RefletView_T& view, const Frame& frame, const Settings& settings, gpu::Image color) {
-    if (color || !frame.defocused) {
+    const gpu::Image softened = frame.blurred ? frame.blurred : frame.defocused;
+    if (color || !softened) {
         return lightWith(frame, color ? pictureOf(view, settings, color) : pictureSoFar(frame));
     }
-    lighting::Light light = lightWith(frame, frame.defocused);
+    lighting::Light light = lightWith(frame, softened);
     light.sharp = frame.sharp;
     return light;
 }
@@ -339,6 +342,20 @@ gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& 
     frame.sharp = radiance;
     frame.defocused = blurred.lit;
     frame.circleOfConfusion = blurred.circleOfConfusion;
+    finishCall(view, frame);
+    return blurred.lit;
+}
+
+gpu::Image recordMotionBlur(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color) {
+    const bool defocused = !color && frame.defocused;
+    const gpu::Image radiance = color       ? pictureOf(view, settings, color)
+                                : defocused ? frame.defocused
+                                            : pictureSoFar(frame);
+    const lighting::Light blurred =
+        lighting::blurMotion(view.recorder, frame.context, settings, lightWith(frame, radiance));
+    frame.sharp = defocused ? frame.sharp : radiance;
+    frame.blurred = blurred.lit;
+    frame.velocityTiles = blurred.motionTiles;
     finishCall(view, frame);
     return blurred.lit;
 }

@@ -135,9 +135,9 @@ gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& sett
 /// color: none: what was antialiased, or composited.
 gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& settings, const Lens& lens,
                               gpu::Image color);
+/// color: none: the last picture of this frame.
+gpu::Image recordMotionBlur(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color);
 
-/// Records what a call has listed. What later calls and the host may read stays for the rest of the frame.
-void finishCall(RefletView_T& view, const Frame& frame);
 /// What the tone map is given: a host's picture, or the frame's.
 lighting::Light pictureToMap(RefletView_T& view, const Frame& frame, const Settings& settings, gpu::Image color);
 

@@ -94,9 +94,11 @@ struct Frame : lighting::Surfaces {
     gpu::History lit;                 ///< swapped by the first effect that reads or writes it
     gpu::Image composed;
     gpu::Image antialiased;
-    gpu::Image sharp;  ///< what depth of field was given
+    gpu::Image sharp;  ///< what the first of depth of field and motion blur was given
     gpu::Image defocused;
     gpu::Image circleOfConfusion;
+    gpu::Image blurred;  ///< of the last refletMotionBlur
+    gpu::Image velocityTiles;
     gpu::Image sunVisibility;
     gpu::Image lampVisibility;                                   ///< of the last refletLampShadows
     uint32_t lamps = 0;                                          ///< of it

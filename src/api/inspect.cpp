@@ -30,6 +30,7 @@ std::vector<Named> imagesOf(const Frame& frame) {
             {"ambient_occlusion", frame.ambientOcclusion},
             {"exposure", frame.exposure},
             {"circle_of_confusion", frame.circleOfConfusion},
+            {"velocity_tiles", frame.velocityTiles},
             {"diffuse", radiance(frame.diffuse)},
             {"specular", radiance(frame.specular)},
             {"diffuse_confidence", source(frame.diffuse)},

@@ -13,7 +13,7 @@ namespace reflet::api {
 
 namespace {
 
-constexpr uint32_t allEffects = 2 * REFLET_EFFECT_LAMP_SHADOWS - 1;
+constexpr uint32_t allEffects = 2 * REFLET_EFFECT_MOTION_BLUR - 1;
 
 // Stand-ins for the host's images: passes that are only prepared never read them.
 class StandIns {
@@ -233,6 +233,9 @@ void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrep
             recordDepthOfField(view, frame, settings, {.apertureRadius = 1.0F, .blades = blades},
                                pictureOr(outputSizeOf(view)));
         }
+    }
+    if (asked(REFLET_EFFECT_MOTION_BLUR)) {
+        recordMotionBlur(view, frame, settings, pictureOr(outputSizeOf(view)));
     }
     if (asked(REFLET_EFFECT_TONE_MAP)) {
         const bool meters = info.autoExposure != 0 && (composes || outputSizeOf(view) == view.renderSize);

@@ -30,6 +30,7 @@ SettingTable makeTable() {
     table.add<DenoiseSettings>("denoise", offsetIn<Settings>(&Settings::denoise));
     table.add<TemporalSettings>("temporal", offsetIn<Settings>(&Settings::temporal));
     table.add<DofSettings>("dof", offsetIn<Settings>(&Settings::dof));
+    table.add<MotionBlurSettings>("motion_blur", offsetIn<Settings>(&Settings::motionBlur));
     table.add<TonemapSettings>("tonemap", offsetIn<Settings>(&Settings::tonemap));
     return table;
 }

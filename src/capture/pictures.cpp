@@ -63,9 +63,14 @@ Pictures::Pictures(const std::string& show, const std::vector<std::string>& aovs
 }
 
 void Pictures::prepare(Settings& settings) const {
-    if (main_->is(ShowProperty::countsSteps) ||
-        std::ranges::any_of(aovs_, [](const Show* s) { return s->is(ShowProperty::countsSteps); })) {
+    const auto needs = [&](ShowProperty property) {
+        return main_->is(property) || std::ranges::any_of(aovs_, [&](const Show* s) { return s->is(property); });
+    };
+    if (needs(ShowProperty::countsSteps)) {
         settings.traceScreen.countSteps = 1;
+    }
+    if (needs(ShowProperty::countsHits)) {
+        settings.traceScreen.countHits = 1;
     }
     settings.composite.layers = contains("indirect_diffuse") || contains("indirect_specular") ? 1 : 0;
 }

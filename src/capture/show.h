@@ -17,6 +17,7 @@ enum class ShowProperty : uint8_t {
     ownSize = 1,      ///< its size differs from the frame's
     countsSteps = 2,  ///< needs trace_screen.count_steps
     radiance = 4,     ///< its values are radiance
+    countsHits = 8,   ///< needs trace_screen.count_hits
 };
 
 constexpr ShowProperty operator|(ShowProperty a, ShowProperty b) {

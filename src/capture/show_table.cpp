@@ -66,6 +66,17 @@ void bothFirsts(Texels t, const ShownPixel&, float* out) {
     out[0] = t[0].x;
     out[1] = t[1].x;
 }
+void firstTwo(Texels t, const ShownPixel&, float* out) {
+    out[0] = t[0].x;
+    out[1] = t[0].y;
+}
+// Of each image: the sum over rays that hit, and their share. Shares have 8 bits.
+void hitDistances(Texels t, const ShownPixel&, float* out) {
+    constexpr float leastShare = 1.0F / 512.0F;
+    for (size_t i = 0; i < t.size(); ++i) {
+        out[i] = t[i].y > leastShare ? t[i].x / t[i].y : 0.0F;
+    }
+}
 void meanColor(Texels t, const ShownPixel&, float* out) {
     const vec3 mean = 0.5F * vec3(t[0] + t[1]);
     std::memcpy(out, &mean, sizeof(mean));
@@ -111,6 +122,9 @@ vec3 nearRedGreen(const float* v) {
 vec3 farAndNear(const float* v) {
     const float radius = v[0] / 16.0F;
     return glm::clamp(vec3(radius, 0.0F, -radius), 0.0F, 1.0F);
+}
+vec3 streakColor(const float* v) {
+    return glm::clamp(vec3(0.5F + v[0] / 64.0F, 0.5F + v[1] / 64.0F, 0.5F), 0.0F, 1.0F);
 }
 constexpr float manySteps = 128.0F;
 vec3 count(const float* v) {
@@ -168,6 +182,10 @@ const std::vector<Show>& table() {
          "blue "
          "near, 1 is 16 pixels; only with a camera that has an aperture",
          [](const FrameImages& i) { return Images{i.circleOfConfusion}; }, first, y, farAndNear},
+        {"velocity_tiles",
+         "longest half streak of motion blur in each tile and those around it, in pixels; one texel per tile; PNG 0.5 "
+         "is 0, 1 is 32 pixels; only with motion_blur.enabled",
+         [](const FrameImages& i) { return Images{i.velocityTiles}; }, firstTwo, xy, streakColor, ownSize},
         {"direct", "direct light of sun and lamps, emission and background: radiance",
          [](const FrameImages& i) { return Images{i.direct}; }, color, rgb, encoded, radiance},
         {"indirect_diffuse", "indirect diffuse light: radiance",
@@ -253,16 +271,17 @@ const std::vector<Show>& table() {
         {"specular_confidence", "confidence of the reflection rays only",
          [](const FrameImages& i) { return Images{i.specular.source}; }, alpha, y, grey},
         {"hit_distance",
-         "mean hit distance of the rays in metres, of which one that hits nothing counts as 10000: R diffuse, G "
-         "specular; PNG bright is near",
+         "mean distance in metres over the rays that hit something, of which `confidence` is the share; 0 where none "
+         "does: R diffuse, G specular; PNG bright is near; only with trace_screen.count_hits=true, which render sets "
+         "by itself",
          [](const FrameImages& i) {
-             return Images{i.diffuse.radiance, i.specular.radiance};
+             return Images{i.diffuse.hits, i.specular.hits};
          },
-         bothAlphas, rg, nearRedGreen},
+         hitDistances, rg, nearRedGreen, countsHits},
         {"diffuse_hit_distance", "hit_distance of the diffuse rays only",
-         [](const FrameImages& i) { return Images{i.diffuse.radiance}; }, alpha, y, near},
+         [](const FrameImages& i) { return Images{i.diffuse.hits}; }, hitDistances, y, near, countsHits},
         {"specular_hit_distance", "hit_distance of the reflection rays only",
-         [](const FrameImages& i) { return Images{i.specular.radiance}; }, alpha, y, near},
+         [](const FrameImages& i) { return Images{i.specular.hits}; }, hitDistances, y, near, countsHits},
         {"steps",
          "mean ray march steps (depth samples) per ray: R diffuse, G specular; PNG 1 is 128 samples; only with "
          "trace_screen.count_steps=true, which render sets by itself",

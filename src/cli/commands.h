@@ -14,6 +14,7 @@ void addReferenceCommand(CLI::App& app);
 void addDatasetCommand(CLI::App& app);
 void addCompareCommand(CLI::App& app);
 void addDefocusCommand(CLI::App& app);
+void addMotionBlurCommand(CLI::App& app);
 void addReportCommand(CLI::App& app);
 void addBenchCommand(CLI::App& app);
 void addQualifyCommand(CLI::App& app);

@@ -92,6 +92,12 @@ void addImageOptions(CLI::App& command, DatasetOptions& o) {
         ->check(CLI::Range(0.0F, 1e6F))
         ->capture_default_str();
     command
+        .add_option("--shutter", o.shutter,
+                    "Motion blur of traced images, noisy and clean alike: share of the time between frames that the "
+                    "shutter is open, around the frame's time. Features stay sharp")
+        ->check(CLI::Range(0.0F, 1.0F))
+        ->capture_default_str();
+    command
         .add_option("--layout", o.layout,
                     "exr: one file of all layers for each frame; oidn: files named as the training tools of Intel Open "
                     "Image Denoise read them")

@@ -16,6 +16,7 @@
 #include "job/sequence_record.h"
 #include "job/sequence_views.h"
 #include "reference/sample_progress.h"
+#include "reference/shutter.h"
 #include "renderer/background/background.h"
 #include "renderer/scene_exposure/scene_exposure.h"
 #include "scene/image_camera.h"
@@ -44,15 +45,19 @@ struct TraceJob {
     const Films& films;
 };
 
-ReferencePicture tracePicture(const TraceJob& job, const View& view, uint32_t seed,
+ReferencePicture tracePicture(const TraceJob& job, const SequenceViews& views, uint32_t frame, uint32_t seed,
                               const std::function<void(const ReferenceProgress&)>& show) {
     ReferenceOptions options = job.options;
     options.seed = seed;
+    const auto proceed = [&](const ReferenceProgress& now) {
+        show(now);
+        return !InterruptNote::arrived();
+    };
+    const double open = job.command.shutter;
+    const auto during = [&](double share) { return views.at(frame + open * (share - 0.5)); };
     try {
-        return traceReference(job.scene, view, job.size, options, [&](const ReferenceProgress& now) {
-            show(now);
-            return !InterruptNote::arrived();
-        });
+        return open > 0.0 ? traceShutter(job.scene, during, job.size, options, proceed)
+                          : traceReference(job.scene, views.of(frame), job.size, options, proceed);
     } catch (const std::bad_alloc&) {
         fail("not enough memory for an image of {}x{} pixels: choose a smaller --size", job.size.x, job.size.y);
     }
@@ -130,7 +135,8 @@ void traceOne(const TraceJob& job) {
     const InterruptNote note;
     SampleProgress progress("tracing", job.options, job.size);
     const ReferencePicture picture =
-        tracePicture(job, job.view, job.options.seed, [&](const ReferenceProgress& now) { progress.set(now); });
+        tracePicture(job, SequenceViews(job.view, job.scene, job.command.sequence, 1), 0, job.options.seed,
+                     [&](const ReferenceProgress& now) { progress.set(now); });
     const TonemapSettings tonemap = exposedAs(job.settings.tonemap, job.scene, picture.final, picture.depth);
     for (const std::string& file : job.command.outputs) {
         writePicture(job, job.view, file, picture, tonemap);
@@ -164,6 +170,9 @@ nlohmann::ordered_json makeRecord(const TraceJob& job, const FrameNames& names) 
                            {"layers", c.layers}};
     if (o.clamp > 0.0F) {
         record["reference"]["clamp"] = o.clamp;
+    }
+    if (c.shutter > 0.0F) {
+        record["reference"]["shutter"] = c.shutter;
     }
     if (o.ambientOcclusion) {
         record["reference"]["ao"] = {o.aoRadius, o.aoFalloff};
@@ -204,7 +213,7 @@ void traceSequence(const TraceJob& job) {
         if (!missing.empty()) {
             const View view = views.of(run.begin);
             const ReferencePicture picture =
-                tracePicture(job, view, frameSeed(job.options.seed, run.begin), [](const auto&) {});
+                tracePicture(job, views, run.begin, frameSeed(job.options.seed, run.begin), [](const auto&) {});
             if (wasInterrupted(job, picture)) {
                 fail("interrupted after {} frames; run the same command again to continue", traced);
             }
@@ -259,7 +268,11 @@ void addReferenceCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("reference", "Path trace a scene on the CPU: the ground truth");
     const std::vector<const CLI::Option*> sequenceOptions = addReferenceOptions(*command, *options);
     command->callback([options, sequenceOptions] {
-        checkSequenceOptions(sequenceOptions, options->outputs);
+        std::vector<const CLI::Option*> forSequences = sequenceOptions;
+        if (options->shutter > 0.0F) {  // of --fps' frames
+            std::erase_if(forSequences, [](const CLI::Option* o) { return o->get_name() == "--fps"; });
+        }
+        checkSequenceOptions(forSequences, options->outputs);
         trace(*options);
     });
 }

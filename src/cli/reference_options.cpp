@@ -28,8 +28,10 @@ void checkNumbers(const ReferenceCommand& command, uvec2 size) {
     if (isNan(command.aoRadius) || isNan(command.aoFalloff)) {  // which no range refuses
         failUsage("{} must be a number, is 'nan'", isNan(command.aoRadius) ? "--ao-radius" : "--ao-falloff");
     }
-    if (std::isnan(command.noise) || std::isnan(command.clamp)) {
-        failUsage("{} must be a number, is 'nan'", std::isnan(command.noise) ? "--noise" : "--clamp");
+    if (std::isnan(command.noise) || std::isnan(command.clamp) || std::isnan(command.shutter)) {
+        failUsage("{} must be a number, is 'nan'", std::isnan(command.noise)   ? "--noise"
+                                                   : std::isnan(command.clamp) ? "--clamp"
+                                                                               : "--shutter");
     }
 }
 
@@ -120,6 +122,13 @@ void addLightOptions(CLI::App& command, ReferenceCommand& options) {
                      "the best that any screen-space method can reach");
     command.add_flag("--pinhole", options.pinhole,
                      "Ignore the camera's lens (aperture_radius or f_number of a view file): everything is sharp");
+    command
+        .add_option("--shutter", options.shutter,
+                    "Motion blur: share of the time between frames (--fps) that the shutter is open, around the "
+                    "frame's time; 0: none. Camera, nodes, skins and morph targets move")
+        ->type_name("X")
+        ->check(CLI::Range(0.0F, 1.0F))
+        ->capture_default_str();
 }
 
 void addLayerOptions(CLI::App& command, ReferenceCommand& options) {

@@ -32,6 +32,7 @@ struct ReferenceCommand {
     std::string sampling = "cosine";
     bool visibleOnly = false;
     bool pinhole = false;
+    float shutter = 0.0F;
     std::vector<std::string> layers;
     std::optional<float> aoRadius;
     std::optional<float> aoFalloff;

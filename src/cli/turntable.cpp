@@ -126,6 +126,8 @@ void addFilmOptions(CLI::App& command, TurntableOptions& options) {
                     "[camera for sky and studio, scene for a sun and an environment of its own]")
         ->check(CLI::IsMember({"camera", "scene"}))
         ->type_name("camera|scene");
+    command.add_flag("--animate", options.animated,
+                     "Play the scene's animations, a whole number of times during the turn, so that the film loops");
     command.add_option("--show", render.show, "Render target to write (see reflet list shows)")
         ->type_name("NAME")
         ->capture_default_str();
@@ -152,7 +154,7 @@ void addTurntableCommand(CLI::App& app) {
     command->footer(
         "The scene is framed from all sides; --orbit sets the first frame's direction. Each frame is a finished "
         "still.\n"
-        "Animations stand still at --time.\n"
+        "Animations stand still at --time; --animate plays them.\n"
         "Example: reflet turntable scene.glb -o scene.webp\n"
         "reflet turntable scene.glb --orbit 0,15,120% --seconds 6 --fps 30 --size 1080x1080 -o scene.mp4");
     command->callback([all] { turntable(*all); });

@@ -9,6 +9,7 @@
 #include "dataset/preset_frames.h"
 #include "dataset/views.h"
 #include "job/sequence_files.h"
+#include "reference/shutter.h"
 #include "renderer/scene_exposure/scene_exposure.h"
 #include "scene/image_camera.h"
 #include "scene/pose.h"
@@ -132,8 +133,12 @@ private:
         options.clamp = options_.clamp;
         options.seed = traceSeed(options_.view.seed, job.frame, version);
         options.threads = options_.threads;
-        ReferencePicture picture = traceReference(job.timed.at(view.time), posed(view, job.scene.scene), size_, options,
-                                                  [](const ReferenceProgress&) { return !InterruptNote::arrived(); });
+        const auto proceed = [](const ReferenceProgress&) { return !InterruptNote::arrived(); };
+        const double open = options_.shutter;
+        const auto during = [&](double share) { return job.shot.at(inBurst(job.frame) + open * (share - 0.5)); };
+        ReferencePicture picture =
+            open > 0.0 ? traceShutter(job.scene.scene, during, size_, options, proceed)
+                       : traceReference(job.timed.at(view.time), posed(view, job.scene.scene), size_, options, proceed);
         if (!picture.complete && picture.samples < samples) {
             fail("interrupted after {} frames; run the same command again to continue", made_);
         }
@@ -206,6 +211,7 @@ private:
         record["clean"] = {{"spp", images.clean.samples},
                            {"noise", images.clean.noise},
                            {"clamp", options_.clamp},
+                           {"shutter", options_.shutter},
                            {"seed", traceSeed(options_.view.seed, job.frame, 0)}};
         record["noisy"] = nlohmann::ordered_json::array();
         for (uint32_t i = 0; i < images.noisy.size(); ++i) {

@@ -77,8 +77,9 @@ DatasetPlan::DatasetPlan(const DatasetOptions& options) : frames_(options.frames
     if (frames_ % burst_ != 0) {
         failUsage("--frames {}: must be a multiple of --burst {}", frames_, burst_);
     }
-    if (std::isnan(options.noise) || std::isnan(options.clamp) || std::isnan(options.speed)) {  // no range refuses it
-        failUsage("--noise, --clamp and --speed must be numbers");
+    if (std::isnan(options.noise) || std::isnan(options.clamp) || std::isnan(options.speed) ||
+        std::isnan(options.shutter)) {  // no range refuses it
+        failUsage("--noise, --clamp, --shutter and --speed must be numbers");
     }
     if (!(options.fps > 0.0 && options.fps <= 1e6)) {
         failUsage("--fps must be more than 0 and at most 1e6, is {:g}", options.fps);
@@ -162,7 +163,7 @@ void beginDataset(const DatasetOptions& o, const DatasetPlan& plan, const std::v
           {"environments", names},
           {"background", o.view.background},
           {"exposure", o.exposure}}},
-        {"clean", {{"spp", o.samples}, {"noise", o.noise}, {"clamp", o.clamp}}},
+        {"clean", {{"spp", o.samples}, {"noise", o.noise}, {"clamp", o.clamp}, {"shutter", o.shutter}}},
         {"noisy", o.noisy},
         {"scene_index", o.view.sceneIndex.value_or(-1)},
         {"settings_files", settingsFiles},

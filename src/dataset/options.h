@@ -28,6 +28,7 @@ struct DatasetOptions {
     uint32_t samples = 256;                    ///< of clean frames, at most
     float noise = 0.0F;
     float clamp = 0.0F;
+    float shutter = 0.0F;        ///< share of the time between frames, of traced images
     std::string layout = "exr";  ///< or "oidn"
     bool displayed = false;      ///< oidn: also the tone-mapped images
     bool floats = false;         ///< all layers as 32-bit floats

@@ -150,10 +150,10 @@ void Shot::drawLight(const DatasetOptions& options, EnvironmentPool& environment
     }
 }
 
-View Shot::at(int frame) const {
+View Shot::at(double frame) const {
     View view = first_;
     if (path_ != nullptr) {
-        const View on = path_->of(static_cast<uint32_t>(std::max(index_ + frame, 0)));
+        const View on = path_->at(std::max(index_ + frame, 0.0));
         view.camera = on.camera;
         view.time = on.time;
         return view;

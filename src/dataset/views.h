@@ -69,8 +69,8 @@ public:
     Shot(const DatasetOptions& options, const ViewDraw& draw, const DatasetScene& scene, TimedScene& timed,
          EnvironmentPool& environments, uint32_t burst, uint32_t index, const SequenceViews& path);
 
-    /// The view of the burst's frame `frame`, or for negative steps of the frames before it. Not posed.
-    [[nodiscard]] View at(int frame) const;
+    /// The view of the burst's frame `frame`, between frames, or for negative steps of the frames before it. Not posed.
+    [[nodiscard]] View at(double frame) const;
     [[nodiscard]] double exposure() const { return exposure_; }
     /// The drawn one; empty: the view's own.
     [[nodiscard]] const std::string& environment() const { return environment_; }

@@ -250,13 +250,16 @@ void addTo(Fingerprint& print, const View& view) {
 }
 
 void addTo(Fingerprint& print, const ReferenceOptions& options) {
-    const auto& [bounces, samples, noise, filter, diffuse, visibleOnly, lambertOnly, lampShadows, ambientOcclusion,
-                 aoRadius, aoFalloff, pinhole, clamp, seed, threads] = options;
+    const auto& [bounces, samples, firstSample, noise, filter, diffuse, visibleOnly, lambertOnly, lampShadows,
+                 ambientOcclusion, aoRadius, aoFalloff, pinhole, clamp, seed, threads] = options;
     (void)threads;
     Adder(print).all(fingerprintVersion, bounces, samples, noise, filter, diffuse, visibleOnly, lambertOnly,
                      lampShadows, ambientOcclusion, aoRadius, aoFalloff, pinhole, seed);
     if (clamp > 0.0F) {  // what was stored before there was one stays valid
         Adder(print).all(clamp);
+    }
+    if (firstSample > 0) {
+        Adder(print).all(firstSample);
     }
 }
 

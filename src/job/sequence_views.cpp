@@ -47,11 +47,11 @@ SequenceViews::SequenceViews(const View& first, const Scene& scene, const Sequen
     }
 }
 
-View SequenceViews::of(uint32_t frame) const {
+View SequenceViews::at(double frame) const {
     View view = first_;
-    view.time += frame / fps_;
+    view.time = std::clamp(view.time + frame / fps_, 0.0, View::largestTime);
     if (pivot_) {
-        view.camera = orbit(view.camera, *pivot_, static_cast<double>(frame) / frames_);
+        view.camera = orbit(view.camera, *pivot_, frame / frames_);
     } else if (path_) {
         view.camera = path_->at(view.time);
     }

@@ -19,7 +19,9 @@ public:
     SequenceViews(const View& first, const Scene& scene, const SequenceOptions& options, uint32_t frames);
 
     /// frame: counted from 0.
-    [[nodiscard]] View of(uint32_t frame) const;
+    [[nodiscard]] View of(uint32_t frame) const { return at(frame); }
+    /// The same between frames. Nothing moves before the time 0.
+    [[nodiscard]] View at(double frame) const;
     /// The frames before which the camera jumps: it moves or turns much farther than in the frames around.
     [[nodiscard]] std::vector<uint32_t> cuts(const Scene& scene) const;
 

@@ -92,6 +92,15 @@ vec3 pivotOf(const SceneOptions& options, const Scene& scene, const View& view, 
     return scene.nodes.empty() ? orbitPivot(view.camera, scene) : orbitPivot(view.camera, frozen(scene, view.time));
 }
 
+// As often as fits best, so that the film loops: the animations play a little faster or slower than they are.
+double playedDuring(const TurntableOptions& options, const Scene& scene) {
+    const double duration = animationDuration(scene);
+    if (!(duration > 0.0)) {
+        failUsage("--animate: the scene has no animation");
+    }
+    return duration * std::max(std::round(options.seconds / duration), 1.0);
+}
+
 /// Renders one frame of the film after the other.
 class FrameMaker {
 public:
@@ -161,6 +170,9 @@ nlohmann::ordered_json turntableRecord(const RenderJob& job, const Turntable& tu
                            {"light_turns", turntable.lightTurns},
                            {"noise", effort.noise},
                            {"most", effort.most}};
+    if (turntable.played > 0.0) {
+        record["turntable"]["played"] = turntable.played;
+    }
     record["show"] = o.show;
     for (const SettingEntry& entry : settingEntries()) {
         record["settings"][entry.name] = settingText(job.settings, entry);
@@ -187,6 +199,7 @@ View Turntable::view(uint32_t frame) const {
     const double turns = static_cast<double>(frame) / frames;
     View view = first;
     view.camera = orbit(view.camera, pivot, turns);
+    view.time += played * turns;
     if (lightTurns) {
         const auto angle = static_cast<float>(std::remainder(2.0 * glm::pi<double>() * turns, 2.0 * glm::pi<double>()));
         view.sun.direction = mat3(glm::rotate(mat4(1.0F), angle, vec3(0, 1, 0))) * view.sun.direction;
@@ -210,6 +223,7 @@ Turntable makeTurntable(const TurntableOptions& options, const Scene& scene) {
         room ? turntable.first.camera.position : pivotOf(source, scene, turntable.first, float(size.x) / float(size.y));
     turntable.lightTurns = turnsWithCamera(options, scene, turntable.first);
     turntable.frames = turntableFrames(options);
+    turntable.played = options.animated ? playedDuring(options, scene) : 0.0;
     return turntable;
 }
 
@@ -247,6 +261,7 @@ uint32_t renderTurntable(const RenderJob& job, const Turntable& turntable, const
         const auto missing = files.missing(run.begin);  // another process may have made some in the meantime
         if (!missing.empty()) {
             const View view = turntable.view(run.begin);
+            job.renderer.blurSince(turntable.before(run.begin).camera);
             work.settle(view);
             work.write(view, missing);
         }

@@ -13,6 +13,7 @@ struct TurntableOptions {
     RenderOptions render;  ///< with the frames' number and names; of the sequence first frame, fps, share, overwrite
     double seconds = 4.0;  ///< of the film
     std::string effort = "normal";  ///< draft, normal or high
+    bool animated = false;          ///< the animations play: a whole number of times
     std::string light;              ///< "camera" or "scene": what the light stays with; empty: see turntableView
 };
 
@@ -28,9 +29,12 @@ struct Turntable {
     vec3 pivot{0.0F};         ///< on the vertical axis of the turn
     bool lightTurns = false;  ///< sun and environment turn with the camera
     uint32_t frames = 1;
+    double played = 0.0;  ///< seconds of the animations that play during the turn; 0: they stand still
 
     /// The camera goes counter-clockwise as seen from above.
     [[nodiscard]] View view(uint32_t frame) const;
+    /// The frame before it; of the first: the last.
+    [[nodiscard]] View before(uint32_t frame) const { return view((frame + frames - 1) % frames); }
 };
 
 /// A camera from --camera or a view file goes around its target. Otherwise the scene is framed from all sides; in a

@@ -88,6 +88,7 @@ LobeInputs inputsOf(const ViewContext& in, const LightingSettings& settings, uin
             .others = {},
             .ambientOcclusion = surfaces.ambientOcclusion,
             .countSteps = settings.traceScreen.countSteps != 0,
+            .countHits = settings.traceScreen.countHits != 0,
             .coneShare = settings.traceScreen.enabled != 0 ? coneShareOnScreen : 0.0F};
 }
 
@@ -111,6 +112,7 @@ LobeLight traceOnce(gpu::PassList& f, LobeStore* history, const ViewContext& in,
                                  {first ? &screen : nullptr, marchOf(settings, screen), longestRay(settings, lobe)});
     inputs.sources = order;
     inputs.others = sources.others;
+    inputs.certainOthers = sources.certainOthers;
     inputs.lit = screen.lit;
     inputs.randomTracing = tracesAtRandom(settings, sources);
     return reflet::traceLobe(f, history, inputs);
@@ -175,6 +177,7 @@ LobeLight finishLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in
     order.insert(order.end(), others.begin(), others.end());
     LobeInputs inputs = inputsOf(in, pending.settings, pending.lobe, surfaces, {});
     inputs.others = order;
+    inputs.certainOthers = 1;
     return reflet::finishLobe(f, history, inputs, pending.begun);
 }
 

@@ -23,8 +23,9 @@ struct Light : LightLayers {
     gpu::Image antialiased;  ///< radiance, history length; none without temporal antialiasing
     /// `lit` before antialiasing and depth of field, of the rendered size; none: `lit` itself.
     gpu::Image unfiltered;
-    gpu::Image sharp;              ///< `lit` before depth of field; none without it
+    gpu::Image sharp;              ///< `lit` before depth of field and motion blur; none without them
     gpu::Image circleOfConfusion;  ///< of DofImages; none without depth of field
+    gpu::Image motionTiles;        ///< of MotionBlurImages; none without motion blur
 };
 
 /// Light::unfiltered, or `lit`.

@@ -15,7 +15,7 @@ bool fits(gpu::Image lit, const Surfaces& surfaces) {
     return lit && lit.size == surfaces.g.depth.size;
 }
 
-// What exposure is measured of, before the lens blurs it; none if no picture fits.
+// What exposure is measured of, before the lens and the shutter blur it; none if no picture fits.
 gpu::Image meteredOf(const Light& light, const Surfaces& surfaces) {
     const gpu::Image sharp = light.sharp ? light.sharp : light.lit;
     if (fits(sharp, surfaces)) {
@@ -118,6 +118,32 @@ Light defocus(gpu::PassList& f, DofHistory& own, const ViewContext& in, const Li
         const auto scope = f.scope("coverage");
         blur.radiance = light.coverage;
         out.coverage = depthOfField(f, own.coverage, blur).radiance;
+    }
+    return out;
+}
+
+Light blurMotion(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings, const Light& light,
+                 const mat4* cameraBefore) {
+    if (!blurs(settings.motionBlur)) {
+        return light;
+    }
+    Light out = light;
+    out.unfiltered = unfilteredOf(light);
+    ViewParams view = in.view;
+    view.previousWorldToClip = cameraBefore != nullptr ? *cameraBefore : view.previousWorldToClip;
+    MotionBlurInputs blur{.radiance = light.lit,
+                          .depth = light.followedDepth,
+                          .motion = cameraBefore != nullptr ? gpu::Image{} : light.followedMotion,
+                          .view = view,
+                          .settings = settings.motionBlur};
+    const MotionBlurImages blurred = motionBlur(f, blur);
+    out.sharp = light.sharp ? light.sharp : light.lit;
+    out.lit = blurred.radiance;
+    out.motionTiles = blurred.tiles;
+    if (light.coverage) {
+        const auto scope = f.scope("coverage");
+        blur.radiance = light.coverage;
+        out.coverage = motionBlur(f, blur).radiance;
     }
     return out;
 }

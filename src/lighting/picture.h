@@ -1,10 +1,11 @@
-// From light to a picture: composite, means over frames, antialiasing, depth of field, exposure, tone map.
+// From light to a picture: composite, means over frames, antialiasing, depth of field, motion blur, exposure, tone map.
 #pragma once
 
 #include "effects/accumulate/accumulate.h"
 #include "effects/depth_of_field/depth_of_field.h"
 #include "effects/exposure/exposure.h"
 #include "effects/lobe/rays.h"
+#include "effects/motion_blur/motion_blur.h"
 #include "effects/temporal/temporal.h"
 #include "effects/tonemap/display.h"
 #include "lighting/light.h"
@@ -65,6 +66,11 @@ struct DofHistory {
 /// what they show; none: like their surfaces.
 Light defocus(gpu::PassList& f, DofHistory& own, const ViewContext& in, const LightingSettings& settings,
               const Lens& lens, const Surfaces& surfaces, const Light& light, const LobeLight* specular);
+
+/// The blur of the shutter; the light itself if there is none. cameraBefore: world to clip space: only the camera has
+/// moved, from there; NULL: as the light's motion says.
+Light blurMotion(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings, const Light& light,
+                 const mat4* cameraBefore = nullptr);
 
 /// Whether exposure can be measured: a picture of the size of the depth is needed.
 bool canMeter(const Light& light, const Surfaces& surfaces);

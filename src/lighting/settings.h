@@ -8,6 +8,7 @@
 #include "effects/lobe/answer_environment.h"
 #include "effects/lobe/rays.h"
 #include "effects/lobe/trace_screen.h"
+#include "effects/motion_blur/motion_blur.h"
 #include "effects/shadow/shadow.h"
 #include "effects/temporal/temporal.h"
 #include "effects/tonemap/tonemap.h"
@@ -25,6 +26,7 @@ struct LightingSettings {
     DenoiseSettings denoise;
     TemporalSettings temporal;
     DofSettings dof;
+    MotionBlurSettings motionBlur;
     TonemapSettings tonemap;
 };
 

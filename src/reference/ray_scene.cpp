@@ -164,6 +164,21 @@ RTCRay embreeRay(const Ray& ray) {
     return r;
 }
 
+// What happened, and what to do.
+const char* embreeText(RTCError error) {
+    switch (error) {
+        case RTC_ERROR_UNKNOWN:
+            return "Embree failed, most often because no thread could be started: raise the limit of processes (ulimit "
+                   "-u), or end others";
+        case RTC_ERROR_OUT_OF_MEMORY:
+            return "out of memory";
+        case RTC_ERROR_UNSUPPORTED_CPU:
+            return "Embree does not support this processor";
+        default:
+            return "Embree refused it";
+    }
+}
+
 }  // namespace
 
 struct RayScene::State {
@@ -180,8 +195,7 @@ struct RayScene::State {
     // Embree records errors on the device instead of throwing.
     void check(const char* what) const {
         if (const RTCError error = rtcGetDeviceError(device); error != RTC_ERROR_NONE) {
-            fail("{}: Embree failed with error {}{}", what, static_cast<int>(error),
-                 error == RTC_ERROR_OUT_OF_MEMORY ? " (out of memory)" : "");
+            fail("{}: {} (error {})", what, embreeText(error), static_cast<int>(error));
         }
     }
 
@@ -230,7 +244,8 @@ struct RayScene::State {
 RayScene::RayScene(const Scene& scene) : state_(new State{scene, {}, nullptr, nullptr}) {
     state_->device = rtcNewDevice(nullptr);
     if (state_->device == nullptr) {
-        fail("Embree cannot be started: error {}", static_cast<int>(rtcGetDeviceError(nullptr)));
+        const RTCError error = rtcGetDeviceError(nullptr);
+        fail("starting Embree: {} (error {})", embreeText(error), static_cast<int>(error));
     }
     state_->hierarchy = rtcNewScene(state_->device);
     // Robust: rays do not leak between adjacent triangles.

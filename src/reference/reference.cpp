@@ -131,7 +131,7 @@ private:
             for (uint32_t x = corner.x; x < end.x; ++x) {
                 PixelSum& sum = sums_[size_t(y) * size_.x + x];
                 for (uint32_t i = first; i < first + count; ++i) {
-                    const PixelSampler random(y * size_.x + x, options_.seed, i);
+                    const PixelSampler random(y * size_.x + x, options_.seed, options_.firstSample + i);
                     const vec2 inside = options_.filter == PixelFilter::center ? vec2(0.5F) : random.pair(0);
                     PathSample sample = tracer_.trace(vec2(x, y) + inside, random);
                     limit(sample, options_.clamp);

@@ -30,6 +30,7 @@ struct ReferenceOptions {
 
     uint32_t bounces = unlimited;  ///< scattered rays of a path, but those through glass; 0: direct light only
     uint32_t samples = 64;         ///< per pixel, at least 1
+    uint32_t firstSample = 0;      ///< of the pixels' sequences: with others, samples add to those of another call
     float noise = 0.0F;            ///< stops early once the noise (see ReferencePicture) is below this; 0: never
     PixelFilter filter = PixelFilter::box;
     DiffuseSampling diffuse = DiffuseSampling::cosine;

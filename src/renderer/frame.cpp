@@ -108,6 +108,7 @@ FrameImages imagesOf(const ViewImages& images, const FrameInputs& in, const ligh
     out.temporal = light.antialiased;
     out.coverage = light.coverage;
     out.circleOfConfusion = light.circleOfConfusion;
+    out.velocityTiles = light.motionTiles;
     out.transparent = light.coverage && in.background.shown.mode == Background::Mode::transparent;
     return out;
 }
@@ -159,6 +160,7 @@ FrameImages renderFrame(gpu::PassList& f, FrameStore& own, const FrameInputs& in
                                       std::log2(in.view.preExposure));
     }
     light = lighting::defocus(f, own.lens, context, settings, in.lens, seen.images, light, &specular);
+    light = lighting::blurMotion(f, context, settings, light, in.cameraBefore ? &*in.cameraBefore : nullptr);
     FrameImages out = imagesOf(seen.images, in, light);
     out.diffuse = diffuse;
     out.specular = specular;

@@ -35,11 +35,12 @@ struct FrameInputs : ViewInputs {
     std::span<const LiveView> live;   ///< live camera images shown by materials of `draws`
     float lightChange = 0.0F;         ///< of LightChange
     FrameBackground background{};
-    bool autoExposure = false;  ///< measure the exposure
-    float elapsed = 0.0F;       ///< seconds of the scene's time since the last frame, not negative
-    uvec2 outputSize{};         ///< of the picture; larger than the view's size with temporal upscaling
-    vec2 jitter{};              ///< of `view`, in its pixels
-    Lens lens;                  ///< of the camera
+    bool autoExposure = false;           ///< measure the exposure
+    float elapsed = 0.0F;                ///< seconds of the scene's time since the last frame, not negative
+    uvec2 outputSize{};                  ///< of the picture; larger than the view's size with temporal upscaling
+    vec2 jitter{};                       ///< of `view`, in its pixels
+    Lens lens;                           ///< of the camera
+    std::optional<mat4> cameraBefore{};  ///< of lighting::blurMotion
 };
 
 /// All images of the frame; formats are documented with the effects.
@@ -55,6 +56,7 @@ struct FrameImages : ViewImages {
     gpu::Image coverage;    ///< red: share of the pixel that surfaces cover; light.lit is premultiplied by it. None
                             ///< unless the background is a colour or transparent
     gpu::Image circleOfConfusion;  ///< of DofImages; none without depth of field
+    gpu::Image velocityTiles;      ///< of MotionBlurImages; none without motion blur
     gpu::Image exposure;           ///< of measureExposure; none without automatic exposure
     gpu::Image display;            ///< alpha: straight, 1 unless the background is transparent
     bool transparent = false;

@@ -243,6 +243,16 @@ ViewParams Renderer::nextParams(const View& view, uvec2 size, uint32_t seed, con
     return params;
 }
 
+std::optional<mat4> Renderer::cameraBefore(const ViewParams& view, uvec2 size, const Settings& settings,
+                                           bool startsAgain) const {
+    if (!blurSince_) {
+        return startsAgain ? std::optional(view.previousWorldToClip) : std::nullopt;
+    }
+    ViewParams before = resized(makeViewParams(*blurSince_, size, 0, 0), renderSize(settings, size));
+    applyJitter(before, previousPlace_, previousPlace_);  // that of this frame
+    return before.worldToClip;
+}
+
 FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const Settings& settings,
                              const std::function<void(gpu::Frame&, const FrameImages&)>& after) {
     View shown = posed(asked, source_);
@@ -295,7 +305,8 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
         static_cast<float>(std::abs(asked.time - previousTime_.value_or(asked.time))),
         size,
         place,
-        Lens{view.camera.apertureRadius, view.camera.focusDistance, view.camera.blades, view.camera.bladeRotation}};
+        Lens{view.camera.apertureRadius, view.camera.focusDistance, view.camera.blades, view.camera.bladeRotation},
+        cameraBefore(params, size, settings, moved && pose_->time < posedBefore && asked.time > previousTime_)};
     previousTime_ = asked.time;
     inputs.probes = probes_.update(frame_, inputs, probesOf(view, settings.probes), settings);
     if (traced != nullptr) {

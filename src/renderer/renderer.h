@@ -37,6 +37,10 @@ public:
     /// other preparations are always completed.
     void stopBetweenPasses(std::function<bool()> stop) { stop_ = std::move(stop); }
 
+    /// From the next frame on, motion blur is that of a camera that came from `before`, and of nothing else that moves;
+    /// nullopt: of all motion since the last frame. For frames at rest that stand for one of a film.
+    void blurSince(const std::optional<Camera>& before) { blurSince_ = before; }
+
     /// Discards all history: the next frame is rendered like a renderer's first, with the noise of the frame of this
     /// number.
     void restart(uint32_t frameNumber);
@@ -68,6 +72,9 @@ private:
     std::vector<LiveView> liveViews(const ViewParams& view);
     /// The view with the suns of its environment's image as lights. others: of these, what is not the view's sun.
     View withSuns(const View& view, const Settings& settings, std::vector<Lamp>& others);
+    /// Of FrameInputs. startsAgain: animations do, so objects jump back.
+    [[nodiscard]] std::optional<mat4> cameraBefore(const ViewParams& view, uvec2 size, const Settings& settings,
+                                                   bool startsAgain) const;
     /// lit: the view with its suns as lights, whose environment has none.
     FrameBackground backgroundOf(const View& view, const View& lit);
     std::vector<Mirror> planMirrors(const View& view, const ViewParams& params, const Settings& settings);
@@ -115,7 +122,8 @@ private:
     PreExposure preExposure_;
     std::optional<mat4> previousWorldToClip_;  ///< without jitter
     vec2 previousPlace_{0.0F};                 ///< in the pixel, that the last frame looked through
-    std::optional<double> previousTime_;       ///< that the last frame was asked for, not looped [s]
+    std::optional<Camera> blurSince_;
+    std::optional<double> previousTime_;  ///< that the last frame was asked for, not looped [s]
     uint32_t frameNumber_ = 0;
 };
 

@@ -57,6 +57,7 @@ SettingTable makeTable() {
     table.add<AccumulateSettings>("accumulate", offsetIn<Settings>(&Settings::accumulate));
     table.add<TemporalSettings>("temporal", offsetIn<Settings>(&Settings::temporal));
     table.add<DofSettings>("dof", offsetIn<Settings>(&Settings::dof));
+    table.add<MotionBlurSettings>("motion_blur", offsetIn<Settings>(&Settings::motionBlur));
     table.add<TonemapSettings>("tonemap", offsetIn<Settings>(&Settings::tonemap));
     table.rename(renamedSettings);
     return table;

@@ -11,6 +11,7 @@ Settings layerSettings(Settings settings) {
     settings.contact.distance = 0.0F;
     settings.diffuse.method = DiffuseMethod::rays;  // slices start in the view that they walk through
     settings.traceScreen.countSteps = 0;
+    settings.traceScreen.countHits = 0;
     return settings;
 }
 
@@ -42,6 +43,7 @@ Settings planarSettings(Settings settings) {
     const bool lit = settings.traceScreen.light != HitLight::direct;
     settings.traceScreen.light = lit ? HitLight::lit : HitLight::direct;
     settings.traceScreen.countSteps = 0;
+    settings.traceScreen.countHits = 0;
     settings.diffuse.rays = lit && settings.planar.diffuse != 0 ? settings.diffuse.rays : 0;
     return settings;
 }

@@ -21,6 +21,7 @@ lighting::RaySources sourcesOf(const ViewInputs& in, const Settings& settings, c
     if (scene && in.traced != nullptr) {
         sources.others.emplace_back(
             [&](gpu::PassList& f, Rays& rays) { traceSceneFallback(f, rays, in, settings, seen.images, seen.screen); });
+        sources.certainOthers = 1;
     }
     if (in.probes) {
         sources.others.emplace_back([&](gpu::PassList& f, Rays& rays) { answerProbes(f, rays, in.probes); });

@@ -11,15 +11,14 @@ namespace reflet {
 
 namespace {
 
-// Distances of rays that hit nothing are the largest of the format.
+// Rays that hit nothing have a distance of 0.
 std::string pickedText(const PickedValues& picked) {
     if (!picked.name.ends_with("hit_distance")) {
         return valuesText(picked.values);
     }
-    constexpr float miss = 65000.0F;
     std::string all;
     for (const float value : picked.values) {
-        all += fmt::format("{}{}", all.empty() ? "" : "  ", value < miss ? fmt::format("{:.4g}", value) : "miss");
+        all += fmt::format("{}{}", all.empty() ? "" : "  ", value > 0.0F ? fmt::format("{:.4g}", value) : "miss");
     }
     return all;
 }

@@ -1,4 +1,5 @@
 // Output of `reflet reference`, both complete and interrupted.
+#include "base/json.h"
 #include "base/json_text.h"
 #include "cli/reference_program.h"
 
@@ -54,6 +55,37 @@ TEST_F(Reference, FinalIsDirectPlusBothIndirectLayers) {
         const float sum = a["direct"].data[i] + a["indirect_diffuse"].data[i] + a["indirect_specular"].data[i];
         ASSERT_FLOAT_EQ(sum, a[""].data[i]) << "value " << i;
     }
+}
+
+// The effect on the sharp picture is much nearer to the shutter's.
+TEST_F(Reference, AShutterBlursWhatMovesAndMotionBlurComesNearIt) {
+    const Arguments moving{"builtin:moving", "--time", "0.5", "--fps", "6"};
+    const auto at = [&](const char* command, const Arguments& more) {
+        Arguments all{command};
+        all.insert(all.end(), moving.begin(), moving.end());
+        all.insert(all.end(), more.begin(), more.end());
+        return run(all);
+    };
+    const Arguments traced{"--size", "96x54", "--bounces", "0", "--spp", "32"};
+    const auto trace = [&](const std::string& shutter, const std::string& file) {
+        Arguments more = traced;
+        more.insert(more.end(), {"--shutter", shutter, "-o", file});
+        return at("reference", more);
+    };
+    ASSERT_TRUE(quietSuccess(trace("1", "shutter.exr")));
+    ASSERT_TRUE(quietSuccess(run({"reference", "builtin:moving", "--time", "0.5", "--size", "96x54", "--bounces", "0",
+                                  "--spp", "32", "-o", "sharp.exr"})));
+    ASSERT_TRUE(quietSuccess(at("motion-blur", {"--picture", "sharp.exr", "--set", "motion_blur.shutter=1", "--set",
+                                                "motion_blur.max_length=0.5", "-o", "blurred.exr"})));
+    const auto error = [&](const char* file) {
+        const Outcome compared = run({"compare", file, "shutter.exr", "--json"});
+        return parseJson(compared.out).at("relative_mse").get<double>();
+    };
+    EXPECT_GT(error("sharp.exr"), 0.0015);
+    EXPECT_LT(error("blurred.exr"), 0.4 * error("sharp.exr"));
+    const Outcome still = trace("0", "x.exr");
+    EXPECT_EQ(still.status, 2);
+    EXPECT_NE(still.err.find("--fps is only for sequences"), std::string::npos) << still.err;
 }
 
 TEST_F(Reference, OneRunWritesPngAndExrAndNothingElse) {

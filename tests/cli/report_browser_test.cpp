@@ -1,4 +1,5 @@
 // The report's page in a browser (Chromium, if installed), opened as a file.
+#include "base/sha256.h"
 #include "cli/browser.h"
 #include "support/html.h"
 
@@ -65,10 +66,18 @@ protected:
                                       "--frames", "2", "--preset", "fast,direct"})));
     }
 
-    /// Writes a copy of the page with something added at its end.
-    void extendPage(const std::string& file, const std::string& addition) const {
+    /// Writes a copy of the page with something added at its end, whose script its policy allows, or does not.
+    void extendPage(const std::string& file, const std::string& addition, bool allowed = true) const {
+        constexpr std::string_view begin = "<script>";
         std::string page = read("out/index.html");
         page.replace(page.rfind("</body>"), std::string_view("</body>").size(), addition);
+        if (allowed) {
+            const size_t first = addition.find(begin) + begin.size();
+            const std::string script = addition.substr(first, addition.find("</script>") - first);
+            const size_t at = page.find("script-src ");
+            ASSERT_NE(at, std::string::npos) << "the page has no policy";
+            page.insert(at + std::string_view("script-src ").size(), "'sha256-" + sha256Base64(script) + "' ");
+        }
         write("out/" + file, page);
     }
 
@@ -119,6 +128,21 @@ TEST_F(ReportBrowserTest, APhonesWidthIsEnough) {
 TEST_F(ReportBrowserTest, AScriptErrorWouldBeDetected) {
     extendPage("test.html", "<script>undefinedFunction();</script></body>");
     EXPECT_EQ(consoleLines(open("test.html", "1280,900")).size(), 1U);
+}
+
+// Over 5 s: starts a browser.
+TEST_F(ReportBrowserTest, NoOtherScriptRuns) {
+    extendPage("test.html", R"html(
+<script>document.documentElement.setAttribute("data-test-ran", "inline");</script>
+<img src="missing.png" onerror="document.documentElement.setAttribute('data-test-ran', 'handler')">
+<script src="data:text/javascript,document.documentElement.setAttribute('data-test-ran', 'data')"></script>
+</body>)html",
+               false);
+    const Outcome shown = open("test.html", "1280,900");
+    const test::Html html = test::parseHtml(shown.out);
+    ASSERT_FALSE(html.elements.empty()) << shown.err;
+    EXPECT_EQ(html.elements.front().value("data-test-ran"), "");
+    EXPECT_GE(consoleLines(shown).size(), 3U) << "the browser tells what it refused";
 }
 
 }  // namespace

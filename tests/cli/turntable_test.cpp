@@ -94,6 +94,8 @@ TEST_F(Films, FramesOfATurntableAreStillsOfTheirDirection) {
         return sum;
     };
     EXPECT_LT(differenceTo("90"), 0.6 * differenceTo("-90")) << "but for noise";
+    const Outcome rests = turntable({"--animate", "-o", "g_#.png"});
+    EXPECT_NE(rests.err.find("--animate: the scene has no animation"), std::string::npos) << rests.err;
 }
 
 TEST_F(Films, OtherFormatsAreMadeByFfmpegOrRefusedBeforeTheWork) {

@@ -18,7 +18,8 @@ namespace {
 using test::HostRoom;
 using test::LibraryHost;
 
-constexpr uint32_t allEffects = (2 * REFLET_EFFECT_DEPTH_OF_FIELD - 1) | REFLET_EFFECT_LAMP_SHADOWS;
+constexpr uint32_t allEffects =
+    (2 * REFLET_EFFECT_DEPTH_OF_FIELD - 1) | REFLET_EFFECT_LAMP_SHADOWS | REFLET_EFFECT_MOTION_BLUR;
 
 /// Calls functions of the library, with the fault in effect, and notes the first failure.
 class Caller {
@@ -195,6 +196,7 @@ protected:
         if (!few) {
             call("refletTemporal", [&] { return refletTemporal(view, settings, nullptr, &image); });
             call("refletDepthOfField", [&] { return refletDepthOfField(view, settings, &lens, nullptr, &image); });
+            call("refletMotionBlur", [&] { return refletMotionBlur(view, settings, nullptr, &image); });
             RefletToneMapInfo to{};
             to.structSize = sizeof to;
             to.autoExposure = 1;

@@ -91,6 +91,7 @@ void recordFrame(RefletView view, RefletSettings settings, const Inputs& inputs,
     check(refletTemporal(view, settings, nullptr, &image));
     const RefletLens lens{sizeof lens, 0.02F, 3.0F, 6, 0.1F};
     check(refletDepthOfField(view, settings, &lens, nullptr, &image));
+    check(refletMotionBlur(view, settings, nullptr, &image));
     check(refletToneMap(view, settings, nullptr, 1, &image));
     check(refletEndFrame(view));
 }

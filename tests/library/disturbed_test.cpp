@@ -161,7 +161,7 @@ RefletFrameInfo frameOf(const Room& room, VkCommandBuffer commands, uint32_t ind
 struct Pictures {
     RefletImage antialiased{};
     RefletImage visibility{};
-    RefletImage defocused{};
+    RefletImage blurred{};  ///< by the lens and the shutter
 };
 
 // environmentFactor: of the image, or without an image the radiance.
@@ -202,6 +202,7 @@ protected:
         settings_ = makeSettings("balanced");
         EXPECT_REFLET(refletSetSetting(settings_, "shadow.history", "32"));
         EXPECT_REFLET(refletSetSetting(settings_, "ao.method", "horizon"));
+        EXPECT_REFLET(refletSetSetting(settings_, "motion_blur.enabled", "true"));
         view_ = makeView(context_, 3, width, height);
         room_ = std::make_unique<Room>(host_);
     }
@@ -235,7 +236,8 @@ protected:
         const RefletImage* picture = frames == Frames::antialiased ? &room_->at(color) : nullptr;
         EXPECT_REFLET(refletTemporal(view_, settings_, picture, &out.antialiased));
         const RefletLens lens{sizeof lens, 0.02F, 3.0F, 0, 0.0F};
-        EXPECT_REFLET(refletDepthOfField(view_, settings_, &lens, nullptr, &out.defocused));
+        EXPECT_REFLET(refletDepthOfField(view_, settings_, &lens, nullptr, &out.blurred));
+        EXPECT_REFLET(refletMotionBlur(view_, settings_, nullptr, &out.blurred));
         RefletImage display{};
         EXPECT_REFLET(refletToneMap(view_, settings_, nullptr, 1, &display));
         EXPECT_REFLET(refletEndFrame(view_));
@@ -254,7 +256,7 @@ protected:
             host_.host.frame([&](VkCommandBuffer c) { last = record(c, i, framesThatRead(input), rests); });
             if (i == disturbedFrame) {
                 host_.host.waitForAll();
-                for (const vec4& texel : halvesOf(host_, last.defocused)) {
+                for (const vec4& texel : halvesOf(host_, last.blurred)) {
                     EXPECT_TRUE(std::isfinite(texel.x + texel.y + texel.z)) << names[input];
                 }
             }

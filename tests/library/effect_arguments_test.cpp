@@ -237,6 +237,8 @@ TEST_F(EffectArguments, OfTheLens) {
 
 TEST_F(EffectArguments, OfOtherEffects) {
     inAFrame([&] {
+        expectError(refletMotionBlur(view_, settings_, nullptr, &image_), "color");
+        expectError(refletMotionBlur(view_, settings_, &light_.light, nullptr), "blurred");
         expectError(refletAmbientOcclusion(view_, settings_, &image_), "ao.method");
         expectError(refletAmbientOcclusion(view_, settings_, nullptr), "occlusion");
         expectError(refletComposite(view_, settings_, nullptr, &sum_), "light");

@@ -94,6 +94,50 @@ TEST_F(Library, KnowsHowMuchAWallCovers) {
     refletDestroyContext(context);
 }
 
+// The second frame's camera has moved sideways, and the host gives no motion: that of the matrices counts.
+TEST_F(Library, MotionBlurFollowsTheCamera) {
+    RefletContext context = host_.makeContext();
+    RefletSettings settings = makeSettings(nullptr);
+    RefletView view = makeView(context, 3);
+    const HostRoom room(host_, {});
+    const RefletImage picture = room.light().light;
+    RefletImage same{};
+    RefletImage blurred{};
+    RefletImage tiles{};
+    for (uint32_t i = 0; i < 2; ++i) {
+        host_.host.frame([&](VkCommandBuffer commands) {
+            RefletFrameInfo frame = room.frame(commands, i);
+            std::ranges::copy(frame.worldToView, frame.previousWorldToView);
+            std::ranges::copy(frame.viewToClip, frame.previousViewToClip);
+            frame.previousWorldToView[12] += 0.5F * static_cast<float>(i);
+            RefletGBuffer gbuffer = *frame.gbuffer;
+            gbuffer.motion = RefletImage{};
+            frame.gbuffer = &gbuffer;
+            EXPECT_REFLET(refletBeginFrame(view, &frame));
+            EXPECT_REFLET(refletSetSetting(settings, "motion_blur.enabled", "false"));
+            EXPECT_REFLET(refletMotionBlur(view, settings, &picture, &same));
+            EXPECT_REFLET(refletSetSetting(settings, "motion_blur.enabled", "true"));
+            EXPECT_REFLET(refletMotionBlur(view, settings, &picture, &blurred));
+            EXPECT_REFLET(refletFindImage(view, "velocity_tiles", &tiles));
+            EXPECT_REFLET(refletEndFrame(view));
+        });
+        host_.host.waitForAll();
+        const std::vector<vec4> sharp = halvesOf(host_, same);
+        const std::vector<vec4> result = halvesOf(host_, blurred);
+        ASSERT_EQ(sharp.size(), result.size());
+        size_t changed = 0;
+        for (size_t k = 0; k < sharp.size(); ++k) {
+            ASSERT_TRUE(std::isfinite(result[k].x) && result[k].x >= 0.0F) << k;
+            changed += vec3(sharp[k]) == vec3(result[k]) ? 0 : 1;
+        }
+        EXPECT_EQ(changed > 50, i == 1) << "frame " << i << ", " << changed << " pixels";
+        EXPECT_EQ(tiles.format, VK_FORMAT_R16G16_SFLOAT);
+    }
+    refletDestroyView(view);
+    refletDestroySettings(settings);
+    refletDestroyContext(context);
+}
+
 // Focused 3 m away: the floor there stays as it is, the wall 6 m away does not.
 TEST_F(Library, DepthOfFieldBlursWhatIsOutOfFocus) {
     RefletContext context = host_.makeContext();

@@ -10,7 +10,7 @@ namespace {
 constexpr uint32_t all = REFLET_EFFECT_SUN_SHADOW | REFLET_EFFECT_CONTACT_SHADOWS | REFLET_EFFECT_DIFFUSE_GI |
                          REFLET_EFFECT_REFLECTIONS | REFLET_EFFECT_DENOISE | REFLET_EFFECT_COMPOSITE |
                          REFLET_EFFECT_TEMPORAL | REFLET_EFFECT_TONE_MAP | REFLET_EFFECT_AMBIENT_OCCLUSION |
-                         REFLET_EFFECT_DEPTH_OF_FIELD;
+                         REFLET_EFFECT_DEPTH_OF_FIELD | REFLET_EFFECT_MOTION_BLUR;
 
 class Prepare : public Library {
 protected:
@@ -76,6 +76,9 @@ protected:
             const RefletLens lens{sizeof lens, 0.2F, 3.0F, index % 3 == 0 ? 0U : 6U, 0.1F};
             EXPECT_REFLET(refletDepthOfField(view_, settings_, &lens, own, &image));
         }
+        if (runs(REFLET_EFFECT_MOTION_BLUR)) {
+            EXPECT_REFLET(refletMotionBlur(view_, settings_, own, &image));
+        }
         if (runs(REFLET_EFFECT_TONE_MAP)) {
             EXPECT_REFLET(refletToneMap(view_, settings_, own, 1, &image));
         }
@@ -93,6 +96,7 @@ protected:
 // Over 5 s: a frame of each combination, a third of them the first of a view.
 TEST_F(Prepare, FramesOfAnyOfTheEffectsMakeNoPipeline) {
     EXPECT_REFLET(refletSetSetting(settings_, "ao.method", "horizon"));
+    EXPECT_REFLET(refletSetSetting(settings_, "motion_blur.enabled", "true"));
     prepare(all);
     const uint64_t made = LibraryHost::made().pipelines;
     EXPECT_GT(made, 30U);

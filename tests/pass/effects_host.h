@@ -146,7 +146,9 @@ public:
         const lighting::Light upscaled =
             lighting::antialias(f, stores_.upscaling, context, settings, light, {2U * size, vec2(0.1F, -0.2F)});
         const Lens lens{.apertureRadius = 0.05F, .focusDistance = 2.0F};
-        f.keep(lighting::defocus(f, stores_.lens, context, settings, lens, surfaces, mean, &parts.specular).lit);
+        const lighting::Light defocused =
+            lighting::defocus(f, stores_.lens, context, settings, lens, surfaces, mean, &parts.specular);
+        f.keep(lighting::blurMotion(f, context, settings, defocused).lit);
         const lighting::Light means = lighting::accumulate(f, stores_.means, light, 0);
         const gpu::Image stops = lighting::exposure(f, stores_.exposure, settings, surfaces, mean, 0.0F);
         const gpu::Image display = lighting::display(f, settings, mean.lit, stops);

@@ -195,7 +195,7 @@ TEST(Indirect, AFloorMirrorShowsThePictureFlipped) {
                    builtin::patch({{0, 0.8F, 0}, {half.x, 0, 0}, {0, half.y, 0}, {1, 1}, {1, 1}}));
     const Pictures p = render(scene, view, size,
                               settingsOf({"diffuse.rays=0", "trace_screen.step=0.02", "trace_screen.max_steps=400",
-                                          "trace_screen.thickness=0.05"}),
+                                          "trace_screen.thickness=0.05", "trace_screen.count_hits=true"}),
                               {"indirect_specular", "specular_hit_distance", "depth"});
     unsigned shown = 0;
     for (unsigned y = 0; y < size.y; ++y) {
@@ -218,6 +218,37 @@ TEST(Indirect, AFloorMirrorShowsThePictureFlipped) {
         }
     }
     EXPECT_GT(shown, 500U);
+}
+
+// Half of a rough mirror's rays miss the board: the mean is that of the others.
+TEST(Indirect, TheHitDistanceIsThatOfTheRaysThatHit) {
+    const View view = viewFrom({0, 1.5F, 5}, {0, 0.7F, 0});
+    Material rough = lambertMaterial(vec3(1.0F));
+    rough.metallic = 1.0F;
+    rough.roughness = 0.5F;
+    Scene scene = sceneOf(rough, builtin::ground({4, 4}, {1, 1}, {1, 1}));
+    builtin::place(scene, "board", builtin::addMaterial(scene, lambertMaterial(vec3(0.5F))),
+                   builtin::patch({{0, 0.8F, 0}, {1.0F, 0, 0}, {0, 0.75F, 0}, {1, 1}, {1, 1}}));
+    const std::vector<std::string> settings{"diffuse.rays=2", "specular.rays=8", "trace_screen.count_hits=true"};
+    const std::vector<std::string> shows{"specular_hit_distance", "specular_confidence", "hit_distance", "final"};
+    const Pictures p = render(scene, view, size, settingsOf(settings), shows);
+    unsigned mixed = 0;
+    unsigned none = 0;
+    for (unsigned y = 0; y < size.y; ++y) {
+        for (unsigned x = 0; x < size.x; ++x) {
+            const float distance = p.value("specular_hit_distance", x, y);
+            const float share = p.value("specular_confidence", x, y);
+            ASSERT_LT(distance, 12.0F) << "the scene is smaller, at " << x << ", " << y;
+            ASSERT_EQ(distance > 0.0F, share > 0.004F) << share << " at " << x << ", " << y;
+            ASSERT_EQ(distance, p.value("hit_distance", x, y, 1));
+            mixed += share > 0.2F && share < 0.8F ? 1 : 0;
+            none += share == 0.0F ? 1 : 0;
+        }
+    }
+    EXPECT_GT(mixed, 200U);
+    EXPECT_GT(none, 200U);
+    const Pictures uncounted = render(scene, view, size, settingsOf({"diffuse.rays=2", "specular.rays=8"}), {"final"});
+    EXPECT_EQ(p.images.at("final").data, uncounted.images.at("final").data) << "counting changes the picture";
 }
 
 TEST(Indirect, ARayWithoutStepsLeftMisses) {

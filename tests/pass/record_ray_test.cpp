@@ -36,7 +36,7 @@ TEST_F(RecordRay, IsTheRayOfTheFrame) {
     for (const char* method : {"exhaustive", "hiz", "dda", "linear", "halving"}) {
         const Settings settings =
             settingsOf({"diffuse.rays=0", "specular.rays=1", "trace_screen.jitter=false", "trace_screen.edge_fade=0.2",
-                        std::string("trace_screen.method=") + method});
+                        "trace_screen.count_hits=true", std::string("trace_screen.method=") + method});
         const Pictures p = render(scene_, view_, size, settings, {"depth", "roughness", "hit_distance", "confidence"});
         std::vector<uvec2> mirrors;
         for (uvec2 pixel(2, 4); pixel.y < size.y; pixel.y += 5) {

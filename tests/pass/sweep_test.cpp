@@ -23,7 +23,7 @@ using Images = std::map<std::string, FloatImage>;
 
 bool maySignify(std::string_view show) {  // images whose values may be negative
     return show == "normal" || show == "geometric_normal" || show == "bent_normal" || show == "motion" ||
-           show == "circle_of_confusion";
+           show == "circle_of_confusion" || show == "velocity_tiles";
 }
 
 void expectSound(const Images& images, const std::string& during) {
@@ -60,15 +60,16 @@ public:
         : scene_(std::move(made)), view_(defaultView(scene_)), renderer_(device, scene_, [](const std::string&) {}) {}
 
     [[nodiscard]] const Scene& scene() const { return scene_; }
-    // All images that the last frame has, and "display", the tone-mapped one. moving: the camera is elsewhere in it.
-    Images images(const Settings& settings, uint32_t frames = 1, bool moving = false) {
+    // All images that the last frame has, and "display", the tone-mapped one. moved: how far the camera is elsewhere
+    // in it [m].
+    Images images(const Settings& settings, uint32_t frames = 1, float moved = 0.0F) {
         renderer_.restart(0);
         std::vector<ShowReadback> readbacks;
         gpu::Readback display;
         View view = view_;
         for (uint32_t i = 0; i < frames; ++i) {
-            if (moving && i + 1 == frames) {
-                view.camera.position += vec3(0.1F, 0.0F, 0.05F);
+            if (i + 1 == frames) {
+                view.camera.position += moved * vec3(1.0F, 0.0F, 0.5F);
             }
             renderer_.render(view, size, 0, settings, [&](gpu::Frame& f, const FrameImages& images) {
                 if (i + 1 == frames) {
@@ -160,7 +161,7 @@ struct Context {
     std::vector<std::string> with;
     const char* scene = "gloss";
     uint32_t frames = 1;
-    bool moving = false;
+    float moved = 0.0F;
 };
 
 // The longest start of a name that fits holds.
@@ -220,6 +221,7 @@ const std::vector<Context>& contexts() {
         {"environment.", {}, "mirror-hall"},
         {"dof.", {"dof.max_radius=0.25"}, "wide lens"},
         {"dof.reflections", {}, "wide mirror"},
+        {"motion_blur.", {"motion_blur.enabled=true", "motion_blur.max_length=0.3"}, "moving", 2, 1.0F},
         {"ao.", {"ao.method=bitmask"}},
         {"ao.method", {}},
         {"ao.thickness", {"ao.method=bitmask", "ao.radius=10"}, "colonnade"},
@@ -232,7 +234,7 @@ const std::vector<Context>& contexts() {
         {"specular.max_roughness", {"specular.rough_fallback=mips"}},
         {"denoise.", {"denoise.enabled=true"}, "gloss", 3},
         {"denoise.enabled", {}},
-        {"denoise.clip", {"denoise.enabled=true"}, "gloss", 4, true},
+        {"denoise.clip", {"denoise.enabled=true"}, "gloss", 4, 0.1F},
         {"denoise.fireflies", {"denoise.enabled=true", "diffuse.rays=1"}, "mirror-hall"},
         {"blend.", {}, "panes"},
         {"transmission.", {}, "glass"},
@@ -240,8 +242,8 @@ const std::vector<Context>& contexts() {
         {"accumulate.enabled", {}, "gloss", 2},
         {"temporal.", {"temporal.enabled=true"}, "gloss", 4},
         {"temporal.enabled", {}, "gloss", 2},
-        {"temporal.frames_in_motion", {"temporal.enabled=true"}, "gloss", 4, true},
-        {"tonemap.adaptation", {"tonemap.auto_exposure=on"}, "gloss", 2, true},
+        {"temporal.frames_in_motion", {"temporal.enabled=true"}, "gloss", 4, 0.1F},
+        {"tonemap.adaptation", {"tonemap.auto_exposure=on"}, "gloss", 2, 0.1F},
     };
     return all;
 }
@@ -302,7 +304,7 @@ TEST_P(SweepOfGroup, EverySettingIsSoundAtItsEndsAndRead) {
             }
             std::vector<std::string> assignments = context.with;
             assignments.push_back(entry.name + "=" + value);
-            seen.push_back(subject(context.scene).images(settingsOf(assignments), context.frames, context.moving));
+            seen.push_back(subject(context.scene).images(settingsOf(assignments), context.frames, context.moved));
             expectSound(seen.back(), assignments.back());
         }
         EXPECT_NE(differs(), invisible.contains(entry.name)) << entry.name << (differs() ? " is seen" : " is not read");
@@ -331,7 +333,7 @@ TEST_P(SweepOfScene, IsSoundInEveryShowAndWithEveryPreset) {
     const Settings all =
         settingsOf({"trace_screen.thickness_mode=second_layer", "trace_screen.count_steps=true", "shadow.cascades=2",
                     "probes.enabled=true", "probes.count=2", "probes.resolution=16", "temporal.enabled=true",
-                    "materials.anisotropy=1", "ao.method=bitmask"});
+                    "materials.anisotropy=1", "ao.method=bitmask", "motion_blur.enabled=true"});
     const Images images = scene.images(all);
     expectSound(images, GetParam());
     EXPECT_GT(rangeOf(images.at("final")).max, 0.05F) << "dark";

@@ -61,9 +61,11 @@ TEST(TraceScene, AMirrorShowsTheWallBehindTheCamera) {
     const Scene scene = wallBehindTheCamera(red);
     const View view = viewFrom({0, 0, 2}, {0, 0, 0});
     const std::vector<std::string> shows{"indirect_specular", "specular_source", "specular_hit_distance"};
-    const Pictures without = render(scene, view, size, settingsOf({}), shows);
+    const Pictures without = render(scene, view, size, settingsOf({"trace_screen.count_hits=on"}), shows);
     EXPECT_EQ(rangeOf(without.images.at("indirect_specular")).max, 0.0F);
-    const Pictures p = render(scene, view, size, settingsOf({"trace_scene.enabled=on"}), shows);
+    EXPECT_EQ(rangeOf(without.images.at("specular_hit_distance")).max, 0.0F) << "no ray hits anything";
+    const Pictures p =
+        render(scene, view, size, settingsOf({"trace_scene.enabled=on", "trace_screen.count_hits=on"}), shows);
     for (const uvec2 at : {uvec2(80, 45), uvec2(3, 3), uvec2(156, 86)}) {
         EXPECT_NEAR(p.value("indirect_specular", at.x, at.y, 0), 0.8F, 0.01F);
         EXPECT_NEAR(p.value("indirect_specular", at.x, at.y, 1), 0.2F, 0.01F);

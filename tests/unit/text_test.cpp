@@ -1,6 +1,8 @@
 // Suggestions for misspelled names.
 #include "base/text.h"
 
+#include "base/sha256.h"
+
 #include <gtest/gtest.h>
 
 #include <array>
@@ -16,6 +18,14 @@ TEST(NearestName, IsTheOneWithAFewLettersWrongMissingOrSwapped) {
     EXPECT_EQ(nearestName("fov", names), "fov_y");
     EXPECT_EQ(nearestName("naer", names), "near");
     EXPECT_EQ(nearestName("trace_screen.maxStep", names), "trace_screen.max_steps");
+}
+
+// Examples of FIPS 180-4; the last has two blocks.
+TEST(Sha256, IsThatOfTheStandard) {
+    EXPECT_EQ(sha256Base64(""), "47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU=");
+    EXPECT_EQ(sha256Base64("abc"), "ungWv48Bz+pBQUDeXa4iI7ADYaOWF3qctBD/YfIAFa0=");
+    EXPECT_EQ(sha256Base64("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
+              "JI1qYdIGOLjlwCaTDD5gOaM85Flk/yFn9uzt1BnbBsE=");
 }
 
 TEST(NearestName, DoesNotCareAboutUpperAndLowerCase) {

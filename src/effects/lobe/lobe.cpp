@@ -56,7 +56,7 @@ LobePlan planLobe(gpu::PassList& f, LobeStore* own, const LobeInputs& in, bool s
     const bool reflects = in.lobe == lobeSpecular;
     plan.imageMotion = reflects && keepsHistory(own, in.denoise) ? noImageMotion(f, plan.from) : gpu::Image{};
     // Rays that nothing reads between the passes need not be written.
-    plan.atOnce = !separate && in.sources.empty() && in.others.empty() && s.reuse == 0 && !varies;
+    plan.atOnce = !separate && in.sources.empty() && in.others.empty() && s.reuse == 0 && !varies && !in.countHits;
     plan.sliced = !reflects && in.diffuse.method == DiffuseMethod::slices && in.screen.images != nullptr &&
                   in.diffuse.distribution == RayDistribution::cosine && !varies;
     const uint32_t fit = plan.atOnce ? maxRaysAtOnce : raysPerBatch(f, plan.from.g.depth.size);
@@ -81,10 +81,24 @@ RayGeneration generationOf(const LobeInputs& in, const LobePlan& plan, uint32_t 
             .directional = plan.directional};
 }
 
+gpu::Image hitsImage(gpu::PassList& f, const RaySurfaces& from) {
+    return f.image("hits", VK_FORMAT_R32G32_SFLOAT, from.g.depth.size);
+}
+
+LobeLight lightWithoutRays(gpu::PassList& f, const LobeInputs& in) {
+    LobeLight light = blackLobe(f, {in.g, in.view}, in.countSteps);
+    if (in.countHits) {
+        light.hits = hitsImage(f, light.from);
+        f.clear(light.hits);
+    }
+    return light;
+}
+
 LobeLight emptyLight(gpu::PassList& f, const LobeInputs& in, const LobePlan& plan) {
     LobeLight light = lobeImages(f, plan.from, in.countSteps, plan.directional);
     light.tiles = plan.tiles;
     light.imageMotion = plan.imageMotion;
+    light.hits = in.countHits ? hitsImage(f, plan.from) : gpu::Image{};
     return light;
 }
 
@@ -101,7 +115,13 @@ Rays beginBatch(gpu::PassList& f, const LobeInputs& in, const LobePlan& plan, co
 }
 
 void finishBatch(gpu::PassList& f, const LobeInputs& in, const LobePlan& plan, Rays rays, const LobeLight& light) {
-    for (const RaySource& source : in.others) {
+    for (const RaySource& source : in.others.first(in.certainOthers)) {
+        source(f, rays);
+    }
+    if (light.hits) {
+        sumHits(f, light, rays);
+    }
+    for (const RaySource& source : in.others.subspan(in.certainOthers)) {
         source(f, rays);
     }
     answerEnvironment(f, rays, in.environment, in.environmentSettings);
@@ -132,7 +152,7 @@ LobeLight denoised(gpu::PassList& f, LobeStore* own, const LobeInputs& in, const
 LobeLight traceLobe(gpu::PassList& f, LobeStore* own, const LobeInputs& in) {
     const auto scope = f.scope(lobeNames[in.lobe]);
     if (in.settings.rays == 0) {
-        return blackLobe(f, {in.g, in.view}, in.countSteps);
+        return lightWithoutRays(f, in);
     }
     const LobePlan plan = planLobe(f, own, in, false);
     const LobeLight light = emptyLight(f, in, plan);

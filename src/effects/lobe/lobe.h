@@ -28,6 +28,8 @@ struct LobeInputs {
     gpu::History lit;                    ///< the view's lit image, for adaptive sampling; may be none
     bool randomTracing = false;          ///< a source may answer the same ray differently the next time
     bool countSteps = false;             ///< count the depth samples of each ray
+    bool countHits = false;              ///< LobeLight::hits is wanted
+    size_t certainOthers = 0;            ///< how many of `others`, at their start, find the actual hit
     float coneShare = 0.0F;              ///< of GenerateRaysParams
 };
 

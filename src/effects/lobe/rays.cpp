@@ -37,6 +37,7 @@ LobeLight lobeImages(gpu::PassList& f, const RaySurfaces& from, bool countSteps,
                     .radiance = f.image("radiance", VK_FORMAT_R16G16B16A16_SFLOAT, size),
                     .source = f.image("source", VK_FORMAT_R16G16B16A16_SFLOAT, size),
                     .steps = {},
+                    .hits = {},
                     .tiles = {},
                     .imageMotion = {},
                     .directional = {}};
@@ -73,6 +74,18 @@ gpu::ComputePass& bindRayOrigins(gpu::PassList& f, gpu::ComputePass& pass, const
     const gpu::Image& origins = rays.from.origins;
     return pass.constant("startsElsewhere", origins ? 1U : 0U)
         .read("origins", origins ? origins : f.placeholder(VK_FORMAT_R32G32B32A32_SFLOAT, gpu::ViewKind::array));
+}
+
+void sumHits(gpu::PassList& f, const LobeLight& light, const Rays& rays) {
+    const uvec2 size = rays.direction.size;
+    f.compute("sum_hits", "sum_hits.comp")
+        .constant("adds", rays.firstRay > 0 ? 1U : 0U)
+        .read("tiles", rays.tiles.tiles)
+        .read("answer", rays.answer)
+        .read("source", rays.source)
+        .write("hits", light.hits)
+        .params(ResolveRaysParams{rays.firstRay, rays.count, rays.from.view.frame, size})
+        .dispatch(size);
 }
 
 void resolveRays(gpu::PassList& f, const LobeLight& light, const Rays& rays) {

@@ -181,6 +181,8 @@ struct LobeLight {
     gpu::Image source;  ///< RGBA16F: mean colour of the sources; alpha: confidence. 8 bits are too few for sums of many
                         ///< batches
     gpu::Image steps;   ///< R32F: mean depth samples per ray; none unless they are counted
+    gpu::Image hits;    ///< RG32F: mean over the rays of distance [m] · share that sources with a certain hit have
+                        ///< answered, and of that share; none unless they are counted
     RayTiles tiles;     ///< none without rays
     /// RG16F: uv motion of the reflected image since the last frame caused by the reflected object's own motion
     /// (object_motion.glsl); none unless requested.
@@ -215,6 +217,9 @@ gpu::ComputePass& bindMeans(gpu::PassList& f, gpu::ComputePass& pass, const Lobe
 
 /// Binds what ray_origin.glsl reads.
 gpu::ComputePass& bindRayOrigins(gpu::PassList& f, gpu::ComputePass& pass, const Rays& rays);
+
+/// Adds what the batch has hit so far to LobeLight::hits. Only sources with a certain hit may have answered.
+void sumHits(gpu::PassList& f, const LobeLight& light, const Rays& rays);
 
 /// Adds the batch to the lobe's images, weighted by 1 over the pixel's ray count.
 void resolveRays(gpu::PassList& f, const LobeLight& light, const Rays& rays);

@@ -79,7 +79,10 @@ CHOICES(HitLight, HIT_LIGHTS)
            "Radiance taken at a hit. direct: direct light of this frame (one bounce). lit: the same; reflections "     \
            "also get this frame's diffuse GI. previous: the whole previous frame, reprojected, which adds further "    \
            "bounces over time.")                                                                                       \
-    SWITCH(countSteps, 0, "Count the depth samples of each ray; `--show steps` switches this on by itself.")
+    SWITCH(countSteps, 0, "Count the depth samples of each ray; `--show steps` switches this on by itself.")           \
+    SWITCH(countHits, 0,                                                                                               \
+           "Keep the mean distance of the rays that hit something apart from the others; `--show hit_distance` "       \
+           "switches this on by itself. Slower; the picture does not change.")
 SETTINGS(TraceScreenSettings, TRACE_SCREEN_SETTINGS)
 
 // The view that rays are traced in, as the specialization constant `through`.

@@ -1,19 +1,11 @@
 // Records temporal antialiasing and upscaling.
 #include "effects/temporal/temporal.h"
 
+#include "effects/to_previous.h"
+
 namespace reflet {
 
 namespace {
-
-// Not so for orthographic cameras, which have one view direction.
-bool movesSky(const ViewParams& view) {
-    return view.eye.w != 0.0F && view.worldToClip != view.previousWorldToClip;
-}
-
-// Exactly the identity for a still camera.
-mat4 toPrevious(const ViewParams& view) {
-    return movesSky(view) ? mat4(glm::dmat4(view.previousWorldToClip) * glm::dmat4(view.clipToWorld)) : mat4(1.0F);
-}
 
 // The histories of this frame.
 struct Histories {
@@ -123,7 +115,7 @@ TemporalImages temporal(gpu::PassList& f, TemporalStore& own, const TemporalInpu
     const uvec2 size = in.radiance.size;
     const uvec2 output = in.outputSize.x > 0 ? in.outputSize : size;
     const Histories h = swapHistories(f, own, size, output, static_cast<bool>(in.coverage));
-    const TemporalParams params{toPrevious(in.view),
+    const TemporalParams params{toPreviousClip(in.view),
                                 fitted(settings, size),
                                 size,
                                 in.jitter,

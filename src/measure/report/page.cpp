@@ -3,6 +3,7 @@
 
 #include "base/embedded.h"
 #include "base/error.h"
+#include "base/sha256.h"
 #include "measure/report/page_scene.h"
 #include "measure/report/text.h"
 #include "measure/report/xml_text.h"
@@ -137,19 +138,33 @@ std::string pageTitle(const ReportPage& page) {
 
 }  // namespace
 
+namespace {
+
+// What the page may do: run its own script, and show images beside it. Nothing that a name or a text could bring in.
+std::string contentPolicy(std::string_view script) {
+    return fmt::format(
+        "default-src 'none'; script-src 'sha256-{}'; style-src 'unsafe-inline'; img-src 'self' file: data:; "
+        "base-uri 'none'; form-action 'none'",
+        sha256Base64(script));
+}
+
+}  // namespace
+
 std::string reportHtml(const ReportPage& page) {
+    const std::string script = fmt::format("\n{}", reportFile("page.js"));
     std::string html = fmt::format(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
         "<meta name=\"color-scheme\" content=\"light dark\">\n<link rel=\"icon\" href=\"data:,\">\n"
         "<title>{}</title>\n<style>\n{}</style>\n</head>\n<body>\n<main>\n",
-        pageTitle(page), style());
+        contentPolicy(script), pageTitle(page), style());
     html += header(page) + "<div class=\"overview\">\n" + plot(page) + reading(page) + "</div>\n";
     for (size_t i = 0; i < page.scenes.size(); ++i) {
         html += sceneSection(page.scenes[i], page.size, sceneId(i));
     }
     html += reproduce(page);
-    html += fmt::format("</main>\n<script>\n{}</script>\n</body>\n</html>\n", reportFile("page.js"));
+    html += fmt::format("</main>\n<script>{}</script>\n</body>\n</html>\n", script);
     return html;
 }
 
