@@ -107,6 +107,12 @@ gpu::Image pictureSoFar(const Frame& frame) {
     return radiance;
 }
 
+// Whether histories may still have samples of frames of another size.
+bool mixesSizes(const RefletView_T& view) {
+    constexpr uint32_t longest = 32;  // temporal.frames by default
+    return view.steadyFrames < longest;
+}
+
 void keepLobe(gpu::PassList& f, const std::optional<LobeLight>& lobe) {
     if (!lobe) {
         return;
@@ -326,7 +332,7 @@ gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& sett
     const bool filtersSky = frame.showsEnvironment && sky.texels && sky.texels.size.x > 1;
     frame.antialiased =
         lighting::antialias(f, view.store->temporal, frame.context, settings, lightWith(frame, radiance),
-                            {size, frame.jitter, filtersSky ? &sky : nullptr})
+                            {size, frame.jitter, filtersSky ? &sky : nullptr, mixesSizes(view)})
             .lit;
     finishCall(view, frame);
     return frame.antialiased;

@@ -247,24 +247,28 @@ void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrep
     }
 }
 
+// changed: as soon as one of another size may have come before.
 void prepareOnce(RefletView_T& view, const Settings& settings, const RefletPrepareInfo& info, const FrameKind& kind,
-                 std::vector<gpu::PipelineInfo>& missing) {
+                 bool changed, std::vector<gpu::PipelineInfo>& missing) {
     view.hostImages.clear();
     view.last.reset();  // its images belong to the frame that is prepared now
     view.recorder.setSizes(sizesOf(view, view.renderSize));
     view.recorder.prepare(missing);
     const bool composed = std::exchange(view.composedLast, false);
+    const uint32_t steady = std::exchange(view.steadyFrames, changed ? 0 : UINT32_MAX);
     const auto environments = std::exchange(view.store->environments, {});  // no frame has shown the stand-in
     try {
         prepareFrame(view, settingsOfFrame(view, settings, {}), info, kind);
     } catch (...) {
         view.composedLast = composed;
+        view.steadyFrames = steady;
         view.store->environments = environments;
         view.recorder.drop();
         view.recorder.end();
         throw;
     }
     view.composedLast = composed;
+    view.steadyFrames = steady;
     view.store->environments = environments;
     view.recorder.end();
 }
@@ -281,9 +285,9 @@ void prepareKinds(const RefletView_T& view, const Settings& settings, const Refl
     small.store = std::make_unique<ViewStore>();
     for (const FrameKind& kind : frameKinds(info)) {
         small.store->environmentRests = UINT32_MAX / 2;
-        prepareOnce(small, settings, info, kind, missing);
+        prepareOnce(small, settings, info, kind, false, missing);
         small.store->environmentRests = 0;  // the environment has changed
-        prepareOnce(small, settings, info, kind, missing);
+        prepareOnce(small, settings, info, kind, info.changesSize != 0, missing);
     }
     small.recorder.finish();
 }
@@ -325,10 +329,11 @@ RefletResult refletPrepare(RefletView view, RefletSettings settings, const Refle
         }
         std::vector<gpu::PipelineInfo> missing;
         const FrameKind whole = wholeFrame(given.effects);
-        prepareOnce(*view, settings->values, given, whole, missing);
+        const bool changesSize = given.changesSize != 0;
+        prepareOnce(*view, settings->values, given, whole, changesSize, missing);
         if (view->recorder.counts().plans > 0) {  // now all histories exist: the rest goes around them
             view->recorder.tidy();
-            prepareOnce(*view, settings->values, given, whole, missing);
+            prepareOnce(*view, settings->values, given, whole, changesSize, missing);
         }
         prepareKinds(*view, settings->values, given, missing);
         const size_t made = std::min<size_t>(missing.size(), maxPipelines);

@@ -222,6 +222,7 @@ RefletResult refletResizeView(RefletView view, uint32_t width, uint32_t height) 
         checkSize(width, height);
         if (view->size != uvec2(width, height)) {
             view->size = view->renderSize = {width, height};
+            view->steadyFrames = UINT32_MAX;
             view->last.reset();
             auto fresh = std::make_unique<ViewStore>();  // the rest is of the old size
             std::swap(fresh->blueNoise, view->store->blueNoise);

@@ -84,7 +84,8 @@ Light antialias(gpu::PassList& f, TemporalStore& own, const ViewContext& in, con
                                            .outputSize = to.size,
                                            .jitter = to.jitter,
                                            .sky = light.coverage ? nullptr : to.sky,
-                                           .reactive = light.reactive},
+                                           .reactive = light.reactive,
+                                           .mixesSizes = to.mixesSizes},
                                           settings.temporal);
     Light out = light;
     out.unfiltered = unfilteredOf(light);

@@ -46,11 +46,12 @@ struct AccumulateHistory {
 Light accumulate(gpu::PassList& f, AccumulateHistory& own, const Light& light, uint32_t framesBefore);
 
 /// What antialiases to. size: of the picture; larger than the view's with temporal upscaling. jitter: of the view, in
-/// its pixels. sky: of TemporalInputs.
+/// its pixels. sky, mixesSizes: of TemporalInputs.
 struct Antialiasing {
     uvec2 size{};
     vec2 jitter{};
     const EnvironmentLight* sky = nullptr;
+    bool mixesSizes = false;
 };
 
 /// Temporal antialiasing, and upscaling to the size of the output.

@@ -1,11 +1,13 @@
 // Frames of changing size (RefletFrameInfo::renderSize): what they make, that histories go on, and what is refused.
 #include "library/library_fixture.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <string>
 #include <tuple>
 
 namespace reflet::test {
@@ -160,8 +162,9 @@ TEST_F(DynamicResolution, PreparesForAllSizes) {
     destroy(view);
 }
 
-// The error of the antialiased picture, and of one that was rendered at a middle size all the time.
-TEST_F(DynamicResolution, PicturesAreAtMostThreeTimesAsWrongAsThoseOfOneSize) {
+// The error of the antialiased picture, and of one that was rendered at a middle size all the time. Over 5 s: 320
+// frames.
+TEST_F(DynamicResolution, ErrorsStayNearThoseOfOneSize) {
     constexpr uint32_t frames = 48;
     const auto last = [&](const auto& sizeOf, uint32_t count, bool rests) {
         RefletView view = makeView(context_, 3);
@@ -173,18 +176,23 @@ TEST_F(DynamicResolution, PicturesAreAtMostThreeTimesAsWrongAsThoseOfOneSize) {
         destroy(view);
         return texels;
     };
-    const auto constant = [](uint32_t /*i*/) { return cycle[3]; };
-    // As a host changes it: by a few percent. And by up to a half, every frame.
+    const std::vector<vec4> wanted = last([](uint32_t /*i*/) { return largest; }, 128, true);
+    const double one = error(last([](uint32_t /*i*/) { return cycle[3]; }, frames, false), wanted);
+    // As a host changes it, by a few percent; by up to a half, every frame; and between the output's size and less,
+    // held for some frames.
     const auto mild = [](uint32_t i) { return std::array{uvec2(48, 30), uvec2(50, 31), uvec2(46, 29)}[i / 4 % 3]; };
     const auto wild = [](uint32_t i) { return cycle[i % cycle.size()]; };
-    const std::vector<vec4> wanted = last([](uint32_t /*i*/) { return largest; }, 128, true);
-    const double one = error(last(constant, frames, false), wanted);
+    const auto held = [](uint32_t i) { return cycle[i / 8 % 2]; };
     const double few = error(last(mild, frames, false), wanted);
     const double many = error(last(wild, frames, false), wanted);
-    std::printf("relative MSE: %g of one size, %g of mild changes, %g of wild ones\n", one, few, many);
-    // The aim is 1.1. Measured: 2.2 and 2.5, not yet explained in full.
-    EXPECT_LT(few, 2.6 * one);
-    EXPECT_LT(many, 3.0 * one);
+    const double two = error(last(held, frames, false), wanted);
+    std::printf("relative MSE: %g of one size, %g of mild changes, %g of wild ones, %g of two sizes\n", one, few, many,
+                two);
+    // Measured: 1.64, 2.3 and 0.81. Of direct light alone all are below 1: what is left comes from the histories of
+    // lobes, which are resampled with each change.
+    EXPECT_LT(few, 1.8 * one);
+    EXPECT_LT(many, 2.5 * one);
+    EXPECT_LT(two, 1.0 * one);
 }
 
 // What the size of the frames changes must not show: neither what was before, nor a start from nothing.

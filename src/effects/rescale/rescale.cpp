@@ -2,6 +2,7 @@
 #include "effects/rescale/rescale.h"
 
 #include "base/error.h"
+#include "effects/lobe/ray_surfaces.h"
 
 #include <algorithm>
 #include <array>
@@ -20,6 +21,13 @@ constexpr std::array shaders{
     Shader{VK_FORMAT_R16G16_SFLOAT, "rescale_moments.comp"}, Shader{VK_FORMAT_R32_SFLOAT, "rescale_scalar.comp"},
     Shader{VK_FORMAT_R32G32_SFLOAT, "rescale_pair.comp"}, Shader{VK_FORMAT_R32G32_UINT, "rescale_packed.comp"}};
 
+// Of an image that has a texel for each block of pixels, and shows one pixel of it (blockPixelOffset).
+vec2 centreOf(uvec2 frame, uvec2 size) {
+    const uvec2 blocks = (frame + size - 1U) / size;
+    const uint32_t scale = std::max({blocks.x, blocks.y, 1U});
+    return vec2((static_cast<float>(blockPixelOffset(scale)) + 0.5F) / static_cast<float>(scale));
+}
+
 }  // namespace
 
 void rescaleHistory(gpu::PassList& f, const gpu::Image& from, const gpu::Image& to, gpu::Resample resample) {
@@ -33,7 +41,10 @@ void rescaleHistory(gpu::PassList& f, const gpu::Image& from, const gpu::Image& 
         pass.constant("depthInGreen", resample == gpu::Resample::depthInGreen ? 1U : 0U);
     }
     const vec2 ratio = vec2(f.sizes().before) / vec2(f.sizes().now);
-    pass.read("from", from).write("to", to).params(RescaleParams{from.size, to.size, ratio}).dispatch(to.size);
+    pass.read("from", from)
+        .write("to", to)
+        .params(RescaleParams{from.size, to.size, ratio, centreOf(f.sizes().before, from.size)})
+        .dispatch(to.size);
 }
 
 std::span<const VkFormat> rescaledFormats() {

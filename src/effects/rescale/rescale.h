@@ -10,7 +10,8 @@ SHARED_BEGIN
 struct RescaleParams {
     uvec2 from;  // size in pixels
     uvec2 to;
-    vec2 ratio;  // texels of `from` per texel of `to`. Not that of the sizes: a coarse grid may reach beyond the frame
+    vec2 ratio;   // texels of `from` per texel of `to`. Not that of the sizes: a coarse grid may reach beyond the frame
+    vec2 centre;  // where in a texel its pixel has its centre: that of a coarse grid's shows one pixel of a block
 };
 
 SHARED_END

@@ -126,7 +126,7 @@ TemporalImages temporal(gpu::PassList& f, TemporalStore& own, const TemporalInpu
                                 in.sky != nullptr ? 1U : 0U,
                                 f.sizes().before != f.sizes().now ? 1U : 0U,
                                 in.view.exposureChange};
-    if (size != output) {
+    if (size != output || in.mixesSizes) {
         upscale(f, h, in, params);
     } else {
         gpu::ComputePass pass = f.compute("temporal", in.coverage ? "temporal_coverage.comp" : "temporal.comp");

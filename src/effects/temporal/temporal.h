@@ -91,8 +91,9 @@ namespace reflet {
 /// jitter (jitter.h), may contain NaN and infinity. view: of this frame; the sky is reprojected with it. coverage: if
 /// given, that of the pixels by surfaces, red, 0 to 1; radiance is premultiplied by it. outputSize: at least that of
 /// radiance; 0: the same. jitter: of this frame, in its pixels. reactive: red, the share of the history that a pixel
-/// gives up, 0 to 1; none: 0. sky: what is seen where depth is 0, if that is an environment and nothing else; it must
-/// live until the call returns.
+/// gives up, 0 to 1; none: 0. mixesSizes: the mean has samples of frames of another size; then those of the output's
+/// size are added as in upscaling, too, as limits for frames that all have it take what others saw for stale. sky: what
+/// is seen where depth is 0, if that is an environment and nothing else; it must live until the call returns.
 struct TemporalInputs {
     gpu::Image depth;
     gpu::Image motion;
@@ -103,6 +104,7 @@ struct TemporalInputs {
     vec2 jitter{};
     const EnvironmentLight* sky = nullptr;
     gpu::Image reactive{};
+    bool mixesSizes = false;
 };
 
 struct TemporalImages {

@@ -11,6 +11,8 @@ const float lastingFrames = 16.0;
 const vec2 staleLimits = vec2(0.4, 0.8);
 const float asGoodAsStill = 1.0 / 64.0;  // pixels
 const float mostRelit = 16.0;
+// Of fewer frames nobody knows how much jitter changes the mean: all that follow a first one far off differ from it alike.
+const float fewestFrames = 4.0;
 
 struct Changed {
     float stale;  // 0 to 1; -1: it is the sky, whose motion is known exactly, and which does not change
@@ -28,8 +30,7 @@ Changed changedAt(ivec2 pixel, float luma, Seen now) {
     vec4 past = vec4(0.0);
     // Of what moves, even slowly, neighbourhoods are never the same.
     bool rests = length(now.moved * vec2(params.size)) < asGoodAsStill;
-    bool known = now.follows && rests;
-    if (known) {
+    if (now.follows && rests) {
         float exposed = params.exposureChange;
         past = imageLoad(previousChanges, pixel) * vec4(exposed, exposed * exposed, exposed, 1.0);
         past *= float(1u - params.resized);
@@ -38,7 +39,8 @@ Changed changedAt(ivec2 pixel, float luma, Seen now) {
     float off = past.a > 0.0 ? luma - past.x : 0.0;
     float variance = mix(past.y, off * off, 1.0 / frames);
     float recent = mix(past.z, off, recentShare);
-    float stale = float(params.mayChange) * staleness(staleShare(recent, variance, luma), staleLimits);
+    float known = past.a >= fewestFrames ? float(params.mayChange) : 0.0;
+    float stale = known * staleness(staleShare(recent, variance, luma), staleLimits);
     float lit = past.x + off * stale;
     imageStore(changes, pixel, roundToHalf(vec4(lit + (luma - lit) / frames, variance, recent, frames)));
     float relit = past.a > 0.0 && stale > 0.0 ? clamp(lit / max(past.x, 1e-6), 1.0 / mostRelit, mostRelit) : 1.0;
