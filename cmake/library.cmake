@@ -21,7 +21,10 @@ target_include_directories(reflet PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}
 target_include_directories(reflet PRIVATE src)
 target_compile_definitions(reflet PRIVATE REFLET_BUILD)
 if(NOT BUILD_SHARED_LIBS)
-    target_compile_definitions(reflet PUBLIC REFLET_STATIC)
+    target_compile_definitions(reflet INTERFACE REFLET_STATIC)
+    if(NOT REFLET_TESTS) # which make a shared library of the same objects
+        target_compile_definitions(reflet PRIVATE REFLET_STATIC)
+    endif()
 endif()
 target_link_libraries(reflet PUBLIC Vulkan::Headers)
 target_link_libraries(reflet PRIVATE $<BUILD_INTERFACE:reflet_options> $<BUILD_INTERFACE:glm::glm>
@@ -36,20 +39,12 @@ if(BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
     set_target_properties(reflet PROPERTIES LINK_DEPENDS ${exports})
 endif()
 
-if(REFLET_TESTS AND NOT BUILD_SHARED_LIBS AND UNIX AND NOT APPLE) # the shared library, for the test of its exports
-    add_library(reflet_exports SHARED ${api})
-    target_include_directories(reflet_exports PRIVATE include src)
-    reflet_embed(reflet_exports libraryPresets ${library_presets})
-    foreach(part IN LISTS library_parts)
-        target_sources(reflet_exports PRIVATE $<TARGET_OBJECTS:${part}>)
-    endforeach()
-    set_target_properties(reflet_exports PROPERTIES SOVERSION ${REFLET_ABI})
-    target_compile_definitions(reflet_exports PRIVATE REFLET_BUILD)
+# The shared library, for the test of its exports, of the same objects.
+if(REFLET_TESTS AND NOT BUILD_SHARED_LIBS AND UNIX AND NOT APPLE)
+    add_library(reflet_exports SHARED $<TARGET_OBJECTS:reflet>)
+    set_target_properties(reflet_exports PROPERTIES SOVERSION ${REFLET_ABI} LINKER_LANGUAGE CXX)
     target_link_options(reflet_exports PRIVATE -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/exports.map)
-    target_link_libraries(reflet_exports PRIVATE reflet_options Vulkan::Headers glm::glm fmt::fmt-header-only
-        nlohmann_json::nlohmann_json)
-    set_target_properties(reflet_exports PROPERTIES POSITION_INDEPENDENT_CODE ON)
-    reflet_quick(reflet_exports)
+    target_link_libraries(reflet_exports PRIVATE reflet_options)
 elseif(REFLET_TESTS)
     add_library(reflet_exports ALIAS reflet)
 endif()

@@ -1,4 +1,4 @@
-// Descriptor sets that are written once and bound in every frame that binds the same.
+// Descriptor sets, cached by the resources that they bind.
 #pragma once
 
 #include "gpu/pass_record.h"

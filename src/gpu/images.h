@@ -1,5 +1,5 @@
 // Images and buffers that effects keep from frame to frame: members of a struct that the caller owns, one for each
-// instance of the effect. What lives in one frame only comes from the list of passes (PassList::image).
+// instance of the effect. Images of a single frame come from the list of passes (PassList::image).
 //
 // All are made when they are first asked for, and again when they are asked for with another format or size: from the
 // second frame of the same settings and size on, nothing is made.

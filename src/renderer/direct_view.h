@@ -36,7 +36,7 @@ struct ViewInputs {
     std::optional<CameraMedium> medium{};  ///< of cameraMedium; only of the camera itself, not of sub-views
 };
 
-/// What the stages read of it.
+/// View parameters and lights, as the lighting stages read them.
 lighting::ViewContext contextOf(const ViewInputs& in, const Settings& settings);
 
 /// Formats are documented with the effects.
@@ -60,7 +60,7 @@ struct ViewImages : lighting::Surfaces {
 /// Lights for shading at hits of traced rays.
 SceneLights sceneLights(const ViewInputs& in, const Settings& settings);
 
-/// What one view keeps for the next frame: shadow maps as long as they hold, and the history of the sun's penumbras.
+/// What one view keeps for the next frame: shadow maps while they are valid, and the history of the sun's visibility.
 struct DirectViewStore {
     gpu::KeptImage shadowMap{"shadow_map"};
     gpu::KeptImage shadowRange{"shadow_range"};
@@ -69,19 +69,19 @@ struct DirectViewStore {
     gpu::HistoryImage sunVisibility{"shadow_clean.history"};
 };
 
-/// Whether a view has seen the same place in the last frame.
+/// Whether the history of the last frame belongs to this view.
 enum class ViewHistory : uint8_t { kept, none };
 
-/// Records the passes of one view. lampShadowMap: from another view of the same frame, to be shared; none: it is drawn.
+/// Records the passes of one view. lampShadowMap: that of another view of this frame, which is shared; none: rendered.
 ViewImages directView(gpu::PassList& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
                       gpu::Image lampShadowMap = {}, ViewHistory history = ViewHistory::kept);
 
-/// Visibility and direct light at other surfaces of a view, with its shadow maps: sets these images of `out`. history:
-/// of the sun's penumbras; may be none.
+/// Computes visibility and direct light for other surfaces of a view (a translucent layer) with its shadow maps, and
+/// sets these images of `out`. history: of the denoised sun visibility; may be null.
 void lightSurfaces(gpu::PassList& f, gpu::HistoryImage* history, const ViewInputs& in, const Settings& settings,
                    ViewImages& out);
 
-/// Direct light at surfaces that are in the same shadows as those of the view, whose visibilities `images` has.
+/// Direct light at surfaces whose shadow visibility is the one in `images`.
 DirectLight directLightOn(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const ViewImages& images);
 
 }  // namespace reflet

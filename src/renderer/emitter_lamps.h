@@ -11,11 +11,11 @@ namespace reflet {
 
 class EmitterLamps {
 public:
-    /// At time 0. others: number of other lamps in the block.
+    /// Finds the emitters at time 0. others: number of other lamps in the block.
     EmitterLamps(const Scene& scene, uint32_t others);
 
     void pose(const ScenePose& now);
-    /// Whether the lamps are all the light of the material.
+    /// Whether the lamps replace all light that the material emits.
     [[nodiscard]] bool standFor(uint32_t material) const { return emitters_.materials.at(material); }
     void appendTo(LampBlock& block) const;
 

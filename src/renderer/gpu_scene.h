@@ -63,7 +63,7 @@ public:
     [[nodiscard]] std::vector<LivePicture>& livePictures() { return live_; }
 
     [[nodiscard]] const DrawList& draws() const { return draws_; }
-    /// emitters: with the lamps that stand for them.
+    /// emitters: includes the lamps that replace small bright emitters.
     [[nodiscard]] LampBlock lamps(bool emitters) const;
     [[nodiscard]] const EmitterLamps& emitters() const { return *emitters_; }
     /// For ray hits: VertexAttributes and indices of all meshes, one after another; indices are relative to their mesh.

@@ -1,5 +1,5 @@
-// What of a frame depends on the frames before it. The one place that knows: sequences, the window, default numbers of
-// frames and the passes themselves ask here.
+// Which histories a frame reads. Sequences, the window, default numbers of frames and the passes themselves all take it
+// from here.
 #pragma once
 
 #include "base/math.h"

@@ -5,12 +5,12 @@
 
 namespace reflet {
 
-/// layer: with the G-buffer of the layer; its direct light is set. Its rays are traced in the screen of the opaque
-/// surfaces. layers: the parts of the light, too.
+/// Lights the surfaces in the G-buffer of `layer` and sets its direct light. Rays are traced through the depth buffer
+/// of the opaque surfaces. layers: returns the parts of the light, too.
 LightLayers lightLayer(gpu::PassList& f, const ViewInputs& in, const Settings& settings, TracedView& layer,
                        bool layers);
 
-/// The same, with the direct light that the layer has.
+/// The same for a layer whose direct light is there already.
 LightLayers reflectedLight(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& layer,
                            bool layers);
 

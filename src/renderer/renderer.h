@@ -23,7 +23,7 @@ namespace reflet {
 
 class Renderer {
 public:
-    /// The scene must outlive the renderer: what only rays or probes need is made of it when it is first needed.
+    /// The scene must outlive the renderer: data for ray tracing and probes is made from it on first use.
     Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn);
     Renderer(gpu::Device& device, const Scene&& scene, const std::function<void(const std::string&)>& warn) = delete;
 
@@ -56,7 +56,7 @@ public:
 private:
     /// Poses the scene at the time of the view.
     void pose(const View& view);
-    /// Radii that the view gives; who casts a shadow. Warns, but only once of the same.
+    /// Sets the lamp radii of the view and chooses the lamps that cast shadows. Gives each warning once.
     LampShadows planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings);
     void addReflectedSuns(LampBlock& lamps, const View& view, const Settings& settings) const;
     /// Multiplies the lights by the pre-exposure, and returns it.
@@ -66,7 +66,7 @@ private:
 
     /// The BVH for ray tracing, if the settings need one.
     const TracedScene* tracedScene(const Settings& settings);
-    /// The view's probes, or those that are placed where it has none.
+    /// The view's probes, or automatically placed ones if it lists none.
     const std::vector<Probe>& probesOf(const View& view, const ProbesSettings& settings);
     /// The live camera images for the frame of this view.
     std::vector<LiveView> liveViews(const ViewParams& view);

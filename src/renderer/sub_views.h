@@ -14,11 +14,11 @@ Settings glassSettings(const Settings& settings, const DrawList& draws);
 /// Clear coats, which have no diffuse base.
 Settings coatSettings(const Settings& settings);
 
-/// The other side of surfaces that transmit diffuse light, which the screen does not show.
+/// The far side of surfaces that transmit diffuse light, which is not on the screen.
 Settings otherSideSettings(const Settings& settings);
 
-/// What a planar reflection shows, for rays of the frame. It has no last frame: `previous` acts as `lit` there, and
-/// probes bring further bounces.
+/// Planar reflections, which rays of the frame read. They have no history: `previous` acts as `lit`, and probes add
+/// further bounces.
 Settings planarSettings(Settings settings);
 /// The same for a mirrored copy of the scene, whose triangles are not mirrored for rays.
 Settings duplicateSettings(const Settings& settings);

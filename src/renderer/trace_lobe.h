@@ -9,7 +9,7 @@
 
 namespace reflet {
 
-/// Surfaces that rays start from, and the views that these are traced in.
+/// Surfaces that rays start from, and the views that the rays are traced in.
 struct TracedView {
     ViewImages images;  ///< of the screen itself, or a layer of translucent surfaces in front of it
     ScreenImages screen;
@@ -20,12 +20,13 @@ struct TracedView {
 TracedView tracedView(gpu::PassList& f, const ViewInputs& in, const Settings& settings, ViewImages images,
                       const gpu::History& lit = {});
 
-/// A lobe with the sources that the settings ask for: screen, planar views, the scene's triangles, probes, environment.
-/// history: none: this frame alone.
+/// Traces a lobe against the sources that the settings enable: screen, planar reflections, BVH, probes,
+/// environment. history: of the denoiser; null: this frame alone.
 LobeLight traceLobe(gpu::PassList& f, LobeStore* history, const ViewInputs& in, const Settings& settings,
                     const TracedView& seen, uint32_t lobe);
 
-/// Has the same sources answer other rays that start in front of the screen: the screen first, no planar views.
+/// Traces other rays, which start in front of the visible surfaces, against the same sources: the screen first, without
+/// planar reflections.
 void answerRays(gpu::PassList& f, Rays& rays, const ViewInputs& in, const Settings& settings, const TracedView& seen);
 
 /// Whether rays of the view read its screen's light at hits.

@@ -1,4 +1,4 @@
-// The light of a view, step by step: what the picture and planar reflections have in common.
+// Steps of lighting that the camera's view and planar reflections share.
 #pragma once
 
 #include "renderer/blend/blend_layers.h"
@@ -6,7 +6,7 @@
 
 namespace reflet {
 
-/// Which rays read the light of a view's screen.
+/// Which rays read the radiance of a view's screen-space hits.
 enum class ScreenReaders : uint8_t {
     own,     ///< those of the view itself, if any do
     others,  ///< rays of another view

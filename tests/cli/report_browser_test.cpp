@@ -63,7 +63,7 @@ protected:
             return;
         }
         ASSERT_TRUE(quietSuccess(run({"report", "builtin:cubes", "-o", "out", "--size", "64x36", "--spp", "2",
-                                      "--frames", "2", "--preset", "fast,direct"})));
+                                      "--frames", "2", "--set", "probes.resolution=16", "--preset", "fast,direct"})));
     }
 
     /// Writes a copy of the page with something added at its end, whose script its policy allows, or does not.

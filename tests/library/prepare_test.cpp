@@ -110,6 +110,9 @@ TEST_F(Prepare, FramesOfAnyOfTheEffectsMakeNoPipeline) {
         }
         effects &= i % 5 == 0 ? ~uint32_t(REFLET_EFFECT_CONTACT_SHADOWS) : ~0U;
         const uint32_t denoises = i / 64;
+        if (denoises > 0 && (effects & REFLET_EFFECT_DIFFUSE_GI) != 0 && (effects & REFLET_EFFECT_REFLECTIONS) != 0) {
+            continue;  // there is no lobe of the host's to denoise
+        }
         if (i % 3 == 0) {
             EXPECT_REFLET(refletResetView(view_));
         }

@@ -256,10 +256,11 @@ TEST(DiffuseSlices, AGlowingWallLightsTheGroundByItsFormFactor) {
          {std::pair("probes.enabled=false", 0.97), std::pair("probes.enabled=true", 1.0)}) {
         View view = viewFrom({0, 2.5F, 3}, {0, 0, 0.5F});
         view.environment.radiance = vec3(0.0F);
-        const Pictures p = renderMean(scene, view, size,
-                                      settingsOf({"diffuse.method=slices", "diffuse.rays=2", "diffuse.slice_steps=16",
-                                                  "specular.rays=0", "trace_screen.light=direct", probes}),
-                                      {"diffuse_radiance", "depth"}, 16);
+        const Pictures p =
+            renderMean(scene, view, size,
+                       settingsOf({"diffuse.method=slices", "diffuse.rays=2", "diffuse.slice_steps=16",
+                                   "specular.rays=0", "trace_screen.light=direct", "probes.resolution=32", probes}),
+                       {"diffuse_radiance", "depth"}, 16);
         for (const float z : {0.3F, 0.7F, 1.2F}) {
             double seen = 0.0;
             double expected = 0.0;

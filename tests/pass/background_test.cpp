@@ -18,8 +18,8 @@ namespace reflet::test::background_test {
 namespace {
 
 using Mode = Background::Mode;
-constexpr uvec2 size(96, 64);
-constexpr uvec2 small(48, 32);
+constexpr uvec2 size(96, 60);
+constexpr uvec2 small(48, 30);
 
 class BackgroundImage : public DeviceTest {
 protected:

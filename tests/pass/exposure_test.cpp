@@ -19,7 +19,7 @@
 namespace reflet::test::exposure_test {
 namespace {
 
-constexpr uvec2 size(48, 32);
+constexpr uvec2 size(48, 30);
 
 // A card of 18 % reflectance, lit from the front, before nothing.
 Scene greyCard() {

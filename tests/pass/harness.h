@@ -1,4 +1,7 @@
 // Renders small scenes for tests with validation layers, and returns the images of the frame as values.
+//
+// Choose sizes with sides that are no powers of two, and whose halves are none: llvmpipe compiles each shader again for
+// textures with a side that is one, and compiling takes most of the tests' time.
 #pragma once
 
 #include "base/image_file.h"

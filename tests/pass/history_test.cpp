@@ -14,7 +14,7 @@
 namespace reflet::test::history_test {
 namespace {
 
-constexpr uvec2 size(48, 32);
+constexpr uvec2 size(24, 14);
 
 class History : public DeviceTest {
 protected:

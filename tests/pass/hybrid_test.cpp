@@ -11,7 +11,7 @@
 namespace reflet::test::hybrid_test {
 namespace {
 
-constexpr uvec2 size(64, 36);
+constexpr uvec2 size(60, 34);
 
 const std::vector<std::string> screenOnly{"diffuse.rays=128", "specular.rays=128", "trace_screen.light=direct",
                                           "trace_screen.thickness=0.05", "materials.mips=off"};
@@ -66,7 +66,7 @@ struct HybridCase {
     const char* scene;
     const char* layer;
     double limit;              ///< of the relative MSE
-    uint32_t pixels = 2040;    ///< that are compared, at least
+    uint32_t pixels = 1800;    ///< that are compared, at least
     bool mirrorsOnly = false;  ///< where the camera sees them
 };
 
@@ -115,7 +115,7 @@ TEST_P(Hybrid, IsThePathTracersPictureWhereTheScreenAloneIsNot) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Hybrid,
-                         testing::Values(HybridCase{"mirror-hall", "indirect_specular", 0.01, 400, true},
+                         testing::Values(HybridCase{"mirror-hall", "indirect_specular", 0.01, 350, true},
                                          HybridCase{"gloss", "indirect_specular", 0.01},
                                          HybridCase{"cave", "indirect_diffuse", 0.02},
                                          HybridCase{"cornell", "indirect_diffuse", 0.02}),

@@ -10,7 +10,7 @@
 namespace reflet::test::image_suns_test {
 namespace {
 
-constexpr uvec2 size(64, 36);
+constexpr uvec2 size(60, 34);
 
 // A sky of 0.4 with a sun of 2x2 texels.
 Environment sunnySky() {
@@ -51,6 +51,7 @@ TEST(ImageSuns, LightAndCastShadowsAsInTheReference) {
     const ReferencePicture truth = traceReference(scene, view, size, options);
     Settings settings;
     applyPreset(settings, "balanced");
+    settings.probes.resolution = 16;  // large ones take most of the time
     const Pictures p = renderMean(scene, view, size, settings, {"final"}, 8);
     const Difference d = compareImages(p.images.at("final"), truth.final, {}).difference;
     EXPECT_LT(d.relativeMse, 0.025);  // a single object has no probes; with them: 0.02
@@ -64,7 +65,7 @@ TEST(ImageSuns, StayInTheBackgroundAndGoWithTheEnvironment) {
     const Scene scene = boxOnGround();
     for (const char* enabled : {"environment.enabled=true", "environment.enabled=false"}) {
         const Pictures p = render(scene, view, size, settingsOf({enabled}), {"final"});
-        EXPECT_NEAR(p.color("final", 32, 18).r, 12000.0F, 20.0F) << enabled;
+        EXPECT_NEAR(p.color("final", 30, 17).r, 12000.0F, 20.0F) << enabled;
     }
     view.camera.target = {0, 0.6F, 0};
     view.camera.fovY = 0.1F;

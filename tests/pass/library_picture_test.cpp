@@ -29,7 +29,7 @@ Settings settingsOfPreset(const std::string& preset) {
     if (preset == "screen_probes") {  // captured by the renderer, handed to the library
         settings.probes.enabled = 1;
         settings.probes.parallax = ProbeParallax::box;  // distances are no image of the renderer's
-        settings.probes.resolution = 64;
+        settings.probes.resolution = 32;
     }
     if (preset == "image_based") {  // prefiltered light is what ambient occlusion dims
         settings.ao.method = AoMethod::horizon;

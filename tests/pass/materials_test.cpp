@@ -259,7 +259,7 @@ TEST(Materials, UnlitOnesLightOthersAsEmissiveSurfacesDo) {
     wall.baseColorTexture = {};
     wall.baseColor = vec4(0, 0, 0, 1);
     wall.specular = 0.0F;  // reflects nothing, either
-    constexpr uvec2 small(48, 32);
+    constexpr uvec2 small(48, 30);
     const View view = viewFrom({0, 2, 4}, {0, 0.5F, 0});
     const auto floorOf = [&](const FloatImage& albedo) { return pixelsOf(albedo, vec3(0.7F)); };
     const auto floorInTruth = [&](const Scene& s) {

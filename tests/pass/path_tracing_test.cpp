@@ -15,7 +15,7 @@
 namespace reflet::test::path_tracing_test {
 namespace {
 
-constexpr uvec2 size(64, 36);
+constexpr uvec2 size(48, 27);
 
 Settings pathTracing() {
     Settings settings;

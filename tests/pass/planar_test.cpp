@@ -136,11 +136,11 @@ TEST(Planar, UnevenAndRoughMirrorsAreNearerToTheReferenceTracedThanLookedUp) {
         const Scene scene = makeMirrorRoom({.roughness = waves ? 0.0F : 0.15F, .waves = waves});
         const View view = viewOfMirrorRoom();
         const std::vector<std::string> rays{"specular.rays=64", "planar.margin=0.3", "materials.anisotropy=1"};
+        const FloatImage truth = truthOf(scene, view, 256);
         const auto error = [&](const char* form) {
             std::vector<std::string> all = rays;
             all.push_back(std::string("planar.form=") + form);
             const Pictures p = mirrored(scene, view, all);
-            const FloatImage truth = truthOf(scene, view, 256);
             return relativeMse(p, truth, smoothMirrorPixels(p, truth, 0.3F));
         };
         const double traced = error("traced");
@@ -203,7 +203,7 @@ void expectSound(const std::vector<std::string>& assignments) {
     std::vector<std::string> all{"planar.enabled=true", "specular.max_roughness=0.1"};
     all.insert(all.end(), assignments.begin(), assignments.end());
     const Pictures p =
-        render(makeMirrorRoom({.waves = true}), viewOfMirrorRoom(), {64, 36}, settingsOf(all), {"final", "source"}, 2);
+        render(makeMirrorRoom({.waves = true}), viewOfMirrorRoom(), {60, 34}, settingsOf(all), {"final", "source"}, 2);
     const Range range = rangeOf(p.images.at("final"));
     const std::string during = fmt::format("{}", fmt::join(assignments, ", "));
     EXPECT_TRUE(range.finite && range.min >= 0.0F) << during;

@@ -9,7 +9,7 @@ namespace {
 
 // The probe maps after this many frames, and the images rendered with them.
 Pictures afterFrames(const Scene& scene, const View& view, const char* refresh, uint32_t frames) {
-    return render(scene, view, {64, 36},
+    return render(scene, view, {60, 34},
                   probeSettings({"probes.bounces=0", "probes.resolution=32", std::string("probes.refresh=") + refresh}),
                   {"probe_atlas", "specular_radiance", "specular_source"}, frames);
 }
@@ -42,7 +42,7 @@ TEST(Probe, IsCapturedAnewWhenLightChangesAndOnlyThen) {
     darker.sun.irradiance *= 0.25F;
     View elsewhere = darker;
     elsewhere.camera.position += vec3(0.5F);
-    const std::vector<Pictures> p = renderPath(scene, {view, darker, elsewhere, view}, {32, 18},
+    const std::vector<Pictures> p = renderPath(scene, {view, darker, elsewhere, view}, {36, 20},
                                                probeSettings({"probes.resolution=32"}), {"probe_atlas"});
     const auto atlas = [&](size_t i) { return p[i].images.at("probe_atlas").data; };
     EXPECT_NE(atlas(0), atlas(1));

@@ -213,7 +213,7 @@ TEST_P(ProbeFurnace, IsAsBrightAsItsWalls) {
     std::vector<std::string> assignments{"trace_screen.enabled=false", "probes.enabled=true", "probes.resolution=64",
                                          "probes.bounces=0", "specular.rays=16"};
     assignments.insert(assignments.end(), GetParam().settings.begin(), GetParam().settings.end());
-    const Pictures p = render(scene, view, {64, 36}, settingsOf(assignments), {"final", "albedo"});
+    const Pictures p = render(scene, view, {60, 34}, settingsOf(assignments), {"final", "albedo"});
     EXPECT_NEAR(meanOfSphere(p), 1.0, 0.01);
     expectSilentValidation("a furnace");
 }
@@ -247,7 +247,7 @@ TEST(Probe, BouncesKeepAWhiteFurnaceWhite) {
     const auto mean = [&](const char* enabled, const char* bounces) {
         std::vector<std::string> all = base;
         all.insert(all.end(), {std::string("probes.enabled=") + enabled, std::string("probes.bounces=") + bounces});
-        return meanOfSphere(render(scene, view, {64, 36}, settingsOf(all), {"final", "albedo"}));
+        return meanOfSphere(render(scene, view, {60, 34}, settingsOf(all), {"final", "albedo"}));
     };
     EXPECT_NEAR(mean("false", "0"), 1.0, 0.001);
     EXPECT_LT(mean("true", "0"), 0.988) << "what is black in the captures takes light away";
@@ -325,7 +325,7 @@ TEST(Probe, LeavesTheSkyToTheEnvironment) {
     view.camera.target = vec3(0.0F);
     view.environment.radiance = {0.25F, 0.5F, 0.75F};
     view.probes = {{{{0, 1, 0}, {vec3(-4, -0.1F, -4), vec3(4, 3, 4)}}}};
-    const Pictures p = render(scene, view, {32, 18}, probeSettings({"probes.resolution=32"}),
+    const Pictures p = render(scene, view, {36, 20}, probeSettings({"probes.resolution=32"}),
                               {"specular_radiance", "specular_source"});
     const vec3 light = p.color("specular_radiance", 16, 12);
     EXPECT_LT(glm::length(light - view.environment.radiance), 1e-3F);
@@ -336,7 +336,7 @@ TEST(Probe, IsNotUsedForRaysThatAreKnownToHitNothing) {
     const Scene scene = findBuiltinScene("gloss")->make();
     const auto reflections = [&](const char* probes) {
         return render(
-                   scene, defaultView(scene), {64, 36},
+                   scene, defaultView(scene), {60, 34},
                    settingsOf({"diffuse.rays=0", "specular.rays=4", "trace_screen.enabled=false",
                                "trace_scene.enabled=true", "trace_scene.light=path", "probes.resolution=32", probes}),
                    {"specular_radiance"})

@@ -11,7 +11,7 @@ namespace {
 
 using builtin::at;
 
-constexpr uvec2 size(64, 36);
+constexpr uvec2 size(48, 27);
 
 View lit(const vec3& sunTravels) {
     View view;

@@ -9,7 +9,7 @@
 namespace reflet::test::radiance_cache_test {
 namespace {
 
-constexpr uvec2 size(48, 27);
+constexpr uvec2 size(36, 20);
 
 // Rays through the scene alone, so that all light of bounces is the cache's.
 const std::vector<std::string> byPaths{"trace_screen.enabled=false",

@@ -73,7 +73,7 @@ TEST(RaySurfaces, IndirectLightIsTheSameFromACoarserGrid) {
 // Over 5 s: each source has pipelines of its own.
 TEST(RaySurfaces, EverySourceAnswersRaysFromACoarserGrid) {
     const Scene scene = findBuiltinScene("mirror-hall")->make();
-    constexpr uvec2 size{96, 54};
+    constexpr uvec2 size{66, 38};
     const auto picture = [&](const char* scale) {
         return renderMean(
             scene, defaultView(scene), size,

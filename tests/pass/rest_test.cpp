@@ -94,8 +94,9 @@ protected:
         settings.probes.enabled = 0;  // their capture takes most of the time
     }
 
-    [[nodiscard]] FloatImage after(uint32_t frames, const View& of) const {
-        return test::render(scene, of, {48, 27}, settings, {"final"}, frames).images.at("final");
+    /// The pictures of so many frames.
+    [[nodiscard]] std::vector<test::Pictures> picturesOf(uint32_t frames) const {
+        return test::renderPath(scene, std::vector<View>(frames, view), {36, 20}, settings, {"final"});
     }
 
     static inline const Scene scene = findBuiltinScene("cornell")->make();
@@ -106,9 +107,12 @@ protected:
 // Pictures of different numbers of frames differ by the noise of the shorter one, or by what it has not seen yet.
 // Over 5 s: it renders some hundred frames.
 TEST_F(AtRest, PicturesConvergeBeyondTheHistoriesOfMotion) {
-    const FloatImage converged = after(400, view);
-    const double at32 = squaredDifference(after(32, view), converged);
-    const double at200 = squaredDifference(after(200, view), converged);
+    const std::vector<test::Pictures> frames = picturesOf(400);
+    const auto errorAfter = [&](size_t count) {
+        return squaredDifference(frames[count - 1].images.at("final"), frames.back().images.at("final"));
+    };
+    const double at32 = errorAfter(32);
+    const double at200 = errorAfter(200);
     EXPECT_LT(at200, 0.3 * at32) << at32;
 }
 

@@ -8,7 +8,7 @@
 namespace reflet::test::restart_test {
 namespace {
 
-constexpr uvec2 size(48, 32);
+constexpr uvec2 size(36, 20);
 
 class Restart : public DeviceTest {
 protected:

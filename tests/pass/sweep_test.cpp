@@ -1,6 +1,7 @@
 // Every setting at its ends, every preset, every built-in scene, every image: finite, not negative, and the validation
 // layers silent. Every setting changes something. And the same input gives the same bytes.
 #include "pass/harness.h"
+#include "pass/sweep_contexts.h"
 
 #include "capture/show.h"
 #include "renderer/presets.h"
@@ -17,7 +18,7 @@
 namespace reflet::test::sweep_test {
 namespace {
 
-constexpr uvec2 size(64, 36);
+constexpr uvec2 size(60, 34);
 
 using Images = std::map<std::string, FloatImage>;
 
@@ -155,109 +156,6 @@ private:
     }
 };
 
-// What a setting needs in order to be read.
-struct Context {
-    std::string_view setting;  ///< or the start of its name
-    std::vector<std::string> with;
-    const char* scene = "gloss";
-    uint32_t frames = 1;
-    float moved = 0.0F;
-};
-
-// The longest start of a name that fits holds.
-const std::vector<Context>& contexts() {
-    static const std::vector<Context> all{
-        {"", {}},
-        {"materials.mip", {}, "cubes"},
-        {"materials.anisotropy", {}, "cubes"},
-        {"materials.coats", {}, "glass"},
-        {"shadow.", {}, "colonnade"},
-        {"shadow.rays", {"shadow.filter=traced"}},
-        {"shadow.constant_bias", {"shadow.bias_kind=constant"}},
-        {"shadow.radius", {"shadow.filter=pcf"}},
-        {"shadow.radius_unit", {"shadow.filter=pcf"}},
-        {"shadow.rings", {"shadow.pattern=rings"}, "colonnade"},
-        {"shadow.mirrored", {"shadow.pattern=rings"}, "colonnade"},
-        {"shadow.cascade_", {"shadow.cascades=4"}, "colonnade"},
-        {"shadow.lamp", {}, "cornell"},
-        {"shadow.lamps", {}, "lamps"},
-        {"shadow.denoise", {"shadow.filter=pcf", "shadow.radius=0.5"}, "colonnade"},
-        {"shadow.history", {}, "colonnade", 3},
-        {"contact.", {"contact.distance=1", "contact.thickness=0.5"}, "colonnade"},
-        {"contact.distance", {}, "colonnade"},
-        {"trace_screen.step", {"trace_screen.method=linear"}},
-        {"trace_screen.min_step", {"trace_screen.method=halving", "trace_screen.step=2"}},
-        {"trace_screen.stride", {"trace_screen.method=dda"}},
-        {"trace_screen.first_steps", {"trace_screen.count_steps=true"}},
-        {"trace_screen.jitter", {"trace_screen.method=linear"}},
-        {"trace_screen.binary_steps", {"trace_screen.method=linear"}},
-        {"trace_screen.interpolate", {"trace_screen.method=linear"}},
-        {"trace_screen.distance_fade", {"trace_screen.max_distance=3"}},
-        {"trace_screen.light", {}, "gloss", 2},
-        {"trace_scene.", {"trace_scene.enabled=true", "diffuse.rays=1"}},
-        {"trace_scene.enabled", {}},
-        {"trace_scene.bounces", {"trace_scene.enabled=true", "trace_scene.light=path", "diffuse.rays=1"}},
-        {"trace_scene.texture_size", {"trace_scene.enabled=true", "trace_screen.enabled=false"}, "cubes"},
-        {"trace_scene.shadows", {"trace_scene.enabled=true"}, "colonnade"},
-        {"direct.reflected_suns", {}, "mirror-hall"},
-        {"radiance_cache.",
-         {"radiance_cache.enabled=true", "trace_scene.enabled=true", "trace_screen.light=previous", "diffuse.rays=1"},
-         "cornell",
-         4},
-        {"radiance_cache.enabled",
-         {"trace_scene.enabled=true", "trace_screen.light=previous", "diffuse.rays=1"},
-         "cornell",
-         4},
-        {"probes.", {"probes.enabled=true", "probes.resolution=16", "probes.count=1"}, "cornell"},
-        {"probes.enabled", {"probes.resolution=16"}, "cornell"},
-        {"probes.blend", {"probes.enabled=true", "probes.resolution=16", "probes.count=4"}, "mirror-hall"},
-        {"planar.", {"planar.enabled=true"}, "mirror-hall"},
-        {"planar.enabled", {}, "mirror-hall"},
-        {"planar.before_screen", {"planar.enabled=true", "planar.scale=0.25"}, "mirror-hall"},
-        {"planar.margin", {"planar.enabled=true", "planar.max_roughness=1"}, "moving"},
-        {"planar.max_roughness", {"planar.enabled=true"}, "moving"},
-        {"planar.camera_", {"planar.enabled=true", "planar.form=camera"}, "mirror-hall"},
-        {"live.", {"shadow.filter=none", "materials.anisotropy=1"}, "monitor"},
-        {"environment.", {}, "mirror-hall"},
-        {"dof.", {"dof.max_radius=0.25"}, "wide lens"},
-        {"dof.reflections", {}, "wide mirror"},
-        {"motion_blur.", {"motion_blur.enabled=true", "motion_blur.max_length=0.3"}, "moving", 2, 1.0F},
-        {"ao.", {"ao.method=bitmask"}},
-        {"ao.method", {}},
-        {"ao.thickness", {"ao.method=bitmask", "ao.radius=10"}, "colonnade"},
-        {"diffuse.slice_steps", {"diffuse.method=slices"}},
-        {"diffuse.adaptive", {"denoise.enabled=true"}, "cave", 3},
-        {"diffuse.reuse", {"diffuse.rays=1"}},
-        {"specular.adaptive", {"denoise.enabled=true"}, "gloss", 3},
-        {"specular.rough_rays", {"denoise.enabled=true"}, "cave"},
-        {"specular.rough_fallback", {"specular.max_roughness=0.2"}},
-        {"specular.max_roughness", {"specular.rough_fallback=mips"}},
-        {"denoise.", {"denoise.enabled=true"}, "gloss", 3},
-        {"denoise.enabled", {}},
-        {"denoise.clip", {"denoise.enabled=true"}, "gloss", 4, 0.1F},
-        {"denoise.fireflies", {"denoise.enabled=true", "diffuse.rays=1"}, "mirror-hall"},
-        {"blend.", {}, "panes"},
-        {"transmission.", {}, "glass"},
-        {"accumulate.", {"accumulate.enabled=true"}, "gloss", 2},
-        {"accumulate.enabled", {}, "gloss", 2},
-        {"temporal.", {"temporal.enabled=true"}, "gloss", 4},
-        {"temporal.enabled", {}, "gloss", 2},
-        {"temporal.frames_in_motion", {"temporal.enabled=true"}, "gloss", 4, 0.1F},
-        {"tonemap.adaptation", {"tonemap.auto_exposure=on"}, "gloss", 2, 0.1F},
-    };
-    return all;
-}
-
-const Context& contextOf(const std::string& setting) {
-    const Context* best = &contexts().front();
-    for (const Context& context : contexts()) {
-        if (setting.starts_with(context.setting) && context.setting.size() > best->setting.size()) {
-            best = &context;
-        }
-    }
-    return *best;
-}
-
 // Why no image can tell how these are set.
 const std::map<std::string_view, std::string_view> invisible{
     {"direct.lamp_tiles", "culling"},
@@ -351,11 +249,11 @@ TEST_P(SweepOfScene, IsSoundInEveryShowAndWithEveryPreset) {
             EXPECT_EQ(picture.data.size(), size_t(3) * found->second.width * found->second.height) << show.name;
         }
     }
-    // A third of the presets with each scene, and so each with several: compiling their shaders takes most of the time.
+    // A quarter of the presets with each scene: compiling their shaders takes most of the time.
     const std::vector<std::string> scenes = sweptScenes();
     const auto index = static_cast<size_t>(std::ranges::find(scenes, GetParam()) - scenes.begin());
     const auto known = presets();
-    for (size_t i = index % 3; i < known.size(); i += 3) {
+    for (size_t i = index % 4; i < known.size(); i += 4) {
         const Preset& preset = known[i];
         Settings settings;
         applyPreset(settings, preset.name);

@@ -101,7 +101,7 @@ TEST(TraceScene, APathInAGlowingRoomOfAlbedoOneHalfFindsTwiceTheGlow) {
     half.emissive = vec3(0.5F);
     half.doubleSided = true;
     const Scene scene = sceneOf(half, builtin::box({2, 2, 2}));
-    const Pictures p = render(scene, viewFrom({0.3F, 0.2F, 1.5F}, {0, 0, 0}), size,
+    const Pictures p = render(scene, viewFrom({0.3F, 0.2F, 1.5F}, {0, 0, 0}), {60, 34},
                               settingsOf({"trace_scene.enabled=on", "trace_scene.light=path", "trace_scene.bounces=64",
                                           "trace_screen.enabled=off", "materials.lambert_only=on", "diffuse.rays=8"}),
                               {"final"});
@@ -118,8 +118,8 @@ TEST_P(SceneFurnace, StaysAsBrightWithTheSceneAsASource) {
     view.environment.radiance = vec3(1.0F);
     const std::vector<std::string> off{"specular.rays=16"};
     const std::vector<std::string> on{"specular.rays=16", "trace_scene.enabled=on"};
-    const Pictures without = render(scene, view, size, settingsOf(off), {"final", "depth"});
-    const Pictures with = render(scene, view, size, settingsOf(on), {"final", "depth"});
+    const Pictures without = render(scene, view, {80, 45}, settingsOf(off), {"final", "depth"});
+    const Pictures with = render(scene, view, {80, 45}, settingsOf(on), {"final", "depth"});
     const auto surface = [&](unsigned x, unsigned y) { return with.hasSurface(x, y); };
     EXPECT_NEAR(meanOf(with, "final", surface), meanOf(without, "final", surface), 0.005);
     EXPECT_NEAR(meanOf(with, "final", surface), 1.0, 0.01);
@@ -200,7 +200,7 @@ TEST(TraceScene, TheSunsMapGivesTheLightThatShadowRaysGive) {
     const Scene scene = findBuiltinScene("cubes")->make();
     const auto mean = [&](const char* shadows) {
         const Pictures p = render(
-            scene, defaultView(scene), size,
+            scene, defaultView(scene), {80, 45},
             settingsOf({"trace_scene.enabled=on", "trace_screen.enabled=off", "specular.rays=0", "diffuse.rays=8",
                         "trace_scene.reuse_screen=off", std::string("trace_scene.shadows=") + shadows}),
             {"indirect_diffuse"});

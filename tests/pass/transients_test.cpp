@@ -18,7 +18,7 @@
 namespace reflet::test::transients_test {
 namespace {
 
-constexpr uvec2 size(32, 18);
+constexpr uvec2 size(36, 20);
 constexpr uint32_t frames = 3;
 
 // Bits, since NaN differs from itself.

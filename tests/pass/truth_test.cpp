@@ -10,7 +10,7 @@
 namespace reflet::test::truth_test {
 namespace {
 
-constexpr uvec2 size(128, 72);
+constexpr uvec2 size(80, 45);
 constexpr uvec2 large(320, 180);
 
 FloatImage flipped(const FloatImage& image) {

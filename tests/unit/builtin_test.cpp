@@ -305,7 +305,7 @@ TEST_P(EveryBuiltinScene, CamerasStandInTheOpenAndLookAtTheScene) {
     for (const Camera& camera : scene.cameras) {
         const vec3 ahead = glm::normalize(camera.target - camera.position);
         EXPECT_GT(glm::dot(ahead, scene.bounds().center() - camera.position), 0.0F) << camera.name;
-        for (const vec3& direction : directions(200)) {
+        for (const vec3& direction : directions(80)) {
             const Hit hit = castRay(triangles, camera.position, direction);
             if (hit.triangle == nullptr) {
                 continue;

@@ -73,7 +73,8 @@ MotionBlurImages motionBlur(gpu::PassList& f, const MotionBlurInputs& in) {
         .read("streaks", streaks)
         .read("tiles", tiles)
         .write("result", result)
-        .params(MotionBlurGatherParams{size, toDepth, toDepth / side, in.settings.samples, in.view.rest > 0 ? 0U : in.view.frame})
+        .params(MotionBlurGatherParams{size, toDepth, toDepth / side, in.settings.samples,
+                                       in.view.rest > 0 ? 0U : in.view.frame})
         .dispatch(size);
     return {result, tiles};
 }
