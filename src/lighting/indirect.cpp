@@ -92,7 +92,8 @@ LobeInputs inputsOf(const ViewContext& in, const LightingSettings& settings, uin
             .coneShare = settings.traceScreen.enabled != 0 ? coneShareOnScreen : 0.0F};
 }
 
-ScreenImages screenForLobe(const ViewContext& in, uint32_t lobe, ScreenImages seen) {
+ScreenImages screenForLobe(const ViewContext& in, uint32_t lobe, ScreenImages seen, bool certainNext) {
+    seen.certainNext = certainNext;
     seen.leavesOutEmitters = in.emitterLamps && lobe == lobeDiffuse;
     seen.leavesOutMirrors = in.reflectedSuns && lobe == lobeDiffuse;
     return seen;
@@ -105,7 +106,7 @@ bool lacksPicture(const ViewContext& in, const LightingSettings& settings, const
 
 LobeLight traceOnce(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
                     uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen, const RaySources& sources) {
-    const ScreenImages screen = screenForLobe(in, lobe, seen);
+    const ScreenImages screen = screenForLobe(in, lobe, seen, sources.certainOthers > 0);
     const bool first = settings.traceScreen.enabled != 0 && !startsWithMirrors(sources, lobe);
     const std::vector<RaySource> order = orderOf(settings, screen, sources, lobe);
     LobeInputs inputs = inputsOf(in, settings, lobe, surfaces,
@@ -152,7 +153,7 @@ ScreenImages litOnce(gpu::PassList& f, LobeStore* history, const ViewContext& in
 PendingLobe beginLobe(gpu::PassList& f, LobeStore* history, const ViewContext& in, const LightingSettings& settings,
                       uint32_t lobe, const Surfaces& surfaces, const ScreenImages& seen, const RaySources& sources) {
     const ScreenImages screen =
-        screenForLobe(in, lobe, litOnce(f, history, in, settings, lobe, surfaces, seen, sources));
+        screenForLobe(in, lobe, litOnce(f, history, in, settings, lobe, surfaces, seen, sources), true);
     const bool marched = settings.traceScreen.enabled != 0 && !startsWithMirrors(sources, lobe);
     const std::vector<RaySource> order = orderOf(settings, screen, sources, lobe);
     LobeInputs inputs = inputsOf(in, settings, lobe, surfaces,

@@ -58,7 +58,7 @@ void takeHemisphere(Picked& picked, std::vector<RecordedSample> samples, const P
 
 /// Whether these settings count the hit: back faces may be rejected.
 inline bool countsAsHit(const RecordedRay& ray, const TraceScreenSettings& settings) {
-    return ray.outcome == RayOutcome::hit && !(ray.facesAway && settings.rejectBackfaces != 0);
+    return ray.outcome == RayOutcome::hit && !(ray.unseen && settings.rejectBackfaces != 0);
 }
 
 }  // namespace reflet

@@ -199,7 +199,7 @@ Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {
                 readbacks.push_back(requestShow(f, made, show));
             }
         }
-        const RecordRayInputs inputs{made.g, made.backDepth, made.pyramid};
+        const RecordRayInputs inputs{made.g, made.backDepth, made.pyramid, settings.traceScene.enabled != 0};
         scale = {made.g.depth.size, size};
         const uvec2 place = scale.toFrame(pixel);
         ray = recordRay(f, inputs, made.view, settings.traceScreen, place);

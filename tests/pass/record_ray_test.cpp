@@ -51,7 +51,7 @@ TEST_F(RecordRay, IsTheRayOfTheFrame) {
         int hits = 0;
         for (size_t i = 0; i < mirrors.size(); ++i) {
             ASSERT_TRUE(rays[i]);
-            const bool answered = rays[i]->outcome == RayOutcome::hit && !rays[i]->facesAway;
+            const bool answered = rays[i]->outcome == RayOutcome::hit && !rays[i]->unseen;
             const float confidence = p.value("confidence", mirrors[i].x, mirrors[i].y, 1);
             EXPECT_NEAR(answered ? rays[i]->confidence : 0.0F, confidence, 0.01F)
                 << method << ' ' << mirrors[i].x << ' ' << mirrors[i].y;

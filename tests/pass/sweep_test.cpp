@@ -228,10 +228,10 @@ class SweepOfScene : public Sweep, public testing::WithParamInterface<std::strin
 // Over 5 s: frames with several presets, with pipelines of their own.
 TEST_P(SweepOfScene, IsSoundInEveryShowAndWithEveryPreset) {
     Subject& scene = subject(GetParam());
-    const Settings all =
-        settingsOf({"trace_screen.thickness_mode=second_layer", "trace_screen.count_steps=true", "shadow.cascades=2",
-                    "probes.enabled=true", "probes.count=2", "probes.resolution=16", "temporal.enabled=true",
-                    "materials.anisotropy=1", "ao.method=bitmask", "motion_blur.enabled=true"});
+    const Settings all = settingsOf({"trace_screen.thickness_mode=second_layer", "trace_screen.count_steps=true",
+                                     "trace_screen.count_hits=true", "shadow.cascades=2", "probes.enabled=true",
+                                     "probes.count=2", "probes.resolution=16", "temporal.enabled=true",
+                                     "materials.anisotropy=1", "ao.method=bitmask", "motion_blur.enabled=true"});
     const Images images = scene.images(all);
     expectSound(images, GetParam());
     EXPECT_GT(rangeOf(images.at("final")).max, 0.05F) << "dark";

@@ -58,7 +58,8 @@ bool findsCaster(ivec2 pixel) {
     o.levels = int(pyramidLevels);
     o.firstSteps = 2u;
     MarchResult hit = marchHiz(ray, o, view);
-    return hit.outcome == marchHit && isBetween(hit.pixel, p, toLight, most);
+    bool blocked = hit.outcome == marchHit || hit.outcome == marchOccluded;  // in front of it or out of sight
+    return blocked && isBetween(hit.pixel, p, toLight, most);
 }
 
 void main() {

@@ -40,9 +40,10 @@ void main() {
     MarchRay ray = makeMarchRay(p, direction, planeOnScreen(p, flatNormal, params.view.clipToWorld), view);
     MarchOptions options = marchOptions(params.settings, params.settings.maxDistance, params.secondLayer, 1.0);
     MarchResult hit = marchBy(params.settings.method, ray, options, view);
-    bool facesAway = hit.outcome == marchHit &&
-                     dot(unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r), direction) > 0.0;
-    bool counts = hit.outcome == marchHit && !(facesAway && params.settings.rejectBackfaces != 0u);
+    vec3 there = unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r);
+    bool unseen = hit.outcome == marchHit && isUnseen(hit, p, direction, there, params.settings.method, options,
+                                                      params.certainNext != 0u, params.view);
+    bool counts = hit.outcome == marchHit && !(unseen && params.settings.rejectBackfaces != 0u);
     imageStore(record, ivec2(2 * i, 0), vec4(direction, hit.distance));
     imageStore(record, ivec2(2 * i + 1, 0), vec4(counts ? 1.0 : 0.0, vec2(hit.pixel), 0.0));
 }

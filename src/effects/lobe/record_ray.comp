@@ -56,10 +56,11 @@ void main() {
     MarchRay ray = makeMarchRay(p, direction, planeOnScreen(p, flatNormal, params.view.clipToWorld), view);
     MarchOptions options = marchOptions(params.settings, params.settings.maxDistance, params.secondLayer, 1.0);
     MarchResult hit = marchBy(params.settings.method, ray, options, view);
-    bool facesAway =
-        hit.outcome == marchHit && dot(unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r), direction) > 0.0;
+    vec3 there = unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r);
+    bool unseen = hit.outcome == marchHit && isUnseen(hit, p, direction, there, params.settings.method, options,
+                                                      params.certainNext != 0u, params.view);
     imageStore(record, ivec2(0, 0), vec4(float(hit.outcome), vec2(hit.pixel), hit.distance));
-    imageStore(record, ivec2(1, 0), vec4(hit.clear, float(hit.occluded), float(hit.steps), float(facesAway)));
+    imageStore(record, ivec2(1, 0), vec4(hit.clear, float(hit.occluded), float(hit.steps), float(unseen)));
     imageStore(record, ivec2(2, 0),
                fadeOf(hit, p, direction, params.settings, params.settings.maxDistance, params.view));
     imageStore(record, ivec2(3, 0), vec4(direction, float(noted)));

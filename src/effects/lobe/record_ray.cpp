@@ -28,7 +28,8 @@ gpu::Readback recordRay(gpu::PassList& f, const RecordRayInputs& in, const ViewP
                         const TraceScreenSettings& settings, uvec2 pixel) {
     const gpu::Image record =
         f.image("ray_record", VK_FORMAT_R32G32B32A32_SFLOAT, uvec2(recordHead + recordedSteps, 1));
-    recordPass(f, in, {view, settings, pixel, in.backDepth ? 1U : 0U}, "record_ray", "record_ray.comp")
+    recordPass(f, in, {view, settings, pixel, in.backDepth ? 1U : 0U, in.certainNext ? 1U : 0U}, "record_ray",
+               "record_ray.comp")
         .write("record", record)
         .dispatch(1);
     return f.readback(record);
@@ -38,7 +39,8 @@ gpu::Readback recordHemisphere(gpu::PassList& f, const RecordRayInputs& in, cons
                                const TraceScreenSettings& settings, uvec2 pixel) {
     const gpu::Image record =
         f.image("hemisphere_record", VK_FORMAT_R32G32B32A32_SFLOAT, uvec2(2 * recordedSamples, 1));
-    recordPass(f, in, {view, settings, pixel, in.backDepth ? 1U : 0U}, "record_hemisphere", "record_hemisphere.comp")
+    recordPass(f, in, {view, settings, pixel, in.backDepth ? 1U : 0U, in.certainNext ? 1U : 0U}, "record_hemisphere",
+               "record_hemisphere.comp")
         .write("record", record)
         .dispatch(recordedSamples);
     return f.readback(record);
@@ -67,7 +69,7 @@ std::optional<RecordedRay> recordedRay(const gpu::Recorder& f, gpu::Readback rea
     ray.distance = texels[0].w;
     ray.clear = texels[1].x;
     ray.lost = texels[1].y != 0.0F;
-    ray.facesAway = texels[1].w != 0.0F;
+    ray.unseen = texels[1].w != 0.0F;
     ray.confidence = texels[2].x;
     ray.edge = texels[2].y;
     ray.far = texels[2].z;

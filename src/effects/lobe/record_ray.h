@@ -23,6 +23,7 @@ struct RecordRayParams {
     TraceScreenSettings settings;
     uvec2 pixel;
     uint secondLayer;
+    uint certainNext;
 };
 
 SHARED_END
@@ -51,7 +52,7 @@ struct RecordedRay {
     float distance = 0.0F;    ///< metres
     float clear = 0.0F;       ///< metres along the ray that are known to be unoccluded
     bool lost = false;        ///< it passed behind a visible surface
-    bool facesAway = false;   ///< the hit is on a back face
+    bool unseen = false;      ///< the screen does not show what was hit (isUnseen)
     float confidence = 0.0F;  ///< of the hit, 0..1: the product of the three
     float edge = 0.0F;
     float far = 0.0F;
@@ -72,8 +73,9 @@ struct RecordedSample {
 
 struct RecordRayInputs {
     const GBuffer& g;
-    gpu::Image backDepth;  ///< second depth layer, or none
-    gpu::Image pyramid;    ///< of makePyramid; none: it is made
+    gpu::Image backDepth;      ///< second depth layer, or none
+    gpu::Image pyramid;        ///< of makePyramid; none: it is made
+    bool certainNext = false;  ///< as in ScreenImages
 };
 
 /// Records the mirror ray of the pixel. Call recordRay while recording the frame with these images, recordedRay when

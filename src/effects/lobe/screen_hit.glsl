@@ -17,6 +17,7 @@ layout(constant_id = 25) const uint interpolates = 0u;
 layout(constant_id = 26) const uint jitters = 0u;
 layout(constant_id = 27) const uint rejectsBackfaces = 0u;
 layout(constant_id = 28) const uint fades = 0u;
+layout(constant_id = 34) const uint certainNext = 0u;
 
 layout(rg32f) uniform readonly image2D pyramid;
 uniform sampler2D backDepth;
@@ -32,10 +33,6 @@ vec2 loadCell(ivec2 cell, int level) {
 // Gaussian. Of 1.2, 2.4, 3.4 and 4.8, 3.4 is closest to 64 stochastic rays on gloss (max_roughness 0.2, 1 and 4 rays);
 // on colonnade (max_roughness 0.5) narrower is better, 2.4 by 5 % of the relative MSE.
 const float coneWidth = 3.4;
-
-// Pixels between a hit and the point where the ray meets the plane of what that pixel shows: more, and it met another
-// surface.
-const float sideSlack = 2.0;
 
 // Width in pixels of a cone's footprint at its hit.
 float widthOfHit(float roughness, MarchResult hit) {
@@ -62,25 +59,16 @@ MarchOptions screenOptions(ivec2 pixel, uint number) {
     return o;
 }
 
-// Whether the ray hit something that the screen does not show: the far side of a visible surface, or its side, behind the
-// silhouette. There the ray meets the plane of the visible surface far from the pixel of the hit, if at all.
-bool hitsUnseen(MarchResult hit, vec3 p, Ray ray) {
+// Whether the hit is none: the screen does not show what was hit, or shows of it what the camera alone sees.
+bool hitsUnseen(MarchResult hit, vec3 p, Ray ray, MarchOptions o) {
     if (rejectsBackfaces == 0u || hit.outcome != marchHit) {
         return false;
-    }
-    if (hit.occluded && secondLayer == 0u) {
-        return true;
     }
     if (leavesOutMirrors != 0u && showsMirror(hit.pixel)) {
         return true;
     }
     vec3 n = unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r);
-    float toward = -dot(n, ray.direction);
-    vec3 there = uvToWorld(pixelToUv(hit.pixel, params.view.pixel), loadDepth(hit.pixel), params.view.clipToWorld);
-    float height = dot(n, p - there);
-    vec4 clip = params.view.worldToClip * vec4(toward * p + height * ray.direction, toward);
-    vec2 across = ndcToUv(clip.xy / clip.w) * params.view.size - (vec2(hit.pixel) + 0.5);
-    return toward <= 0.0 || clip.w <= 0.0 || max(abs(across.x), abs(across.y)) > sideSlack;
+    return isUnseen(hit, p, ray.direction, n, method, o, certainNext != 0u, params.view);
 }
 
 // Writes the motion of the reflected image caused by the hit object's own motion.

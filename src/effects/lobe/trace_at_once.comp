@@ -61,8 +61,9 @@ float traceOnScreen(RayOrigin from, uint number, Ray ray, inout WaitingRay w, in
     }
     MarchView view = marchView(params.view);
     MarchRay march = makeMarchRay(from.point, ray.direction, from.plane, view);
-    MarchResult hit = marchBy(method, march, screenOptions(from.pixel, number), view);
-    bool unseen = hitsUnseen(hit, from.point, ray);
+    MarchOptions options = screenOptions(from.pixel, number);
+    MarchResult hit = marchBy(method, march, options, view);
+    bool unseen = hitsUnseen(hit, from.point, ray, options);
     updateClearDistance(hit, unseen, from.point, ray.direction, w);
     if (hit.outcome == marchHit && !unseen) {
         if (tellsMotion != 0u && number == 0u) {

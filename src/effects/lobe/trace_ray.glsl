@@ -31,6 +31,31 @@ MarchResult marchBy(uint method, MarchRay ray, MarchOptions o, MarchView view) {
     }
 }
 
+// Pixels between a hit and the point where the ray meets the plane of what that pixel shows: more, and it met another
+// surface.
+const float sideSlack = 2.0;
+
+// Whether a ray from p hit something that the screen does not show: the far side of the visible surface at the hit, or its
+// side, behind the silhouette (the ray meets the plane of the visible surface far from that pixel, if at all). certainNext:
+// the next source finds the actual hit; then it may be anything, if the ray passed behind something whose thickness is
+// only assumed, and which may have stopped it. n: geometric normal at the hit. Methods whose steps are longer than a
+// pixel miss the place by more than a side's width.
+bool isUnseen(MarchResult hit, vec3 p, vec3 direction, vec3 n, uint method, MarchOptions o, bool certainNext,
+              ViewParams view) {
+    float toward = -dot(n, direction);
+    if (toward <= 0.0 || (certainNext && hit.occluded && !o.secondLayer)) {
+        return true;
+    }
+    if (method < TraceMethod_dda) {
+        return false;
+    }
+    vec3 there = uvToWorld(pixelToUv(hit.pixel, view.pixel), loadDepth(hit.pixel), view.clipToWorld);
+    vec4 clip = view.worldToClip * vec4(toward * p + dot(n, p - there) * direction, toward);
+    vec2 across = ndcToUv(clip.xy / clip.w) * view.size - (vec2(hit.pixel) + 0.5);
+    float slack = sideSlack + (method == TraceMethod_dda ? o.stride : 0.0);
+    return clip.w <= 0.0 || max(abs(across.x), abs(across.y)) > slack;
+}
+
 // Confidence of a hit, 0..1, then its factors: fade at the screen's edge, at the maximum distance, toward the camera.
 vec4 fadeOf(MarchResult hit, vec3 p, vec3 direction, TraceScreenSettings s, float longest, ViewParams view) {
     vec2 uv = pixelToUv(hit.pixel, view.pixel);

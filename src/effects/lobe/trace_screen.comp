@@ -44,7 +44,7 @@ RayAnswer traceAnswer(ivec3 slot, Ray ray, vec3 p, vec3 n, inout WaitingRay w) {
     if (countSteps != 0u) {
         imageStore(steps, slot, vec4(float(hit.steps)));
     }
-    bool unseen = hitsUnseen(hit, p, ray);
+    bool unseen = hitsUnseen(hit, p, ray, options);
     updateClearDistance(hit, unseen, p, ray.direction, w);
     if (tellsMotion != 0u && slot.z == 0 && hit.outcome == marchHit && !unseen) {
         writeReflectionMotion(slot.xy, ray, p, hit);

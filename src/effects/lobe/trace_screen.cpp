@@ -67,6 +67,7 @@ gpu::ComputePass& bindScreenLight(gpu::PassList& f, gpu::ComputePass& pass, cons
     return pass.constant("readsPrevious", params.settings.light == HitLight::previous ? 1U : 0U)
         .constant("secondLayer", seen.backDepth ? 1U : 0U)
         .constant("leavesOutEmitters", seen.leavesOutEmitters ? 1U : 0U)
+        .constant("certainNext", seen.certainNext ? 1U : 0U)
         .constant("leavesOutMirrors", seen.leavesOutMirrors ? 1U : 0U)
         .constant("cones", seen.lightMips ? 1U : 0U)
         .read("depth", seen.g.depth)

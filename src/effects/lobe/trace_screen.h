@@ -68,7 +68,8 @@ CHOICES(HitLight, HIT_LIGHTS)
            "is one; draws the scene's back faces as well.")                                                            \
     SWITCH(rejectBackfaces, 1,                                                                                         \
            "Treat a hit on the far side of a visible surface, or on its side behind the silhouette, as a miss, "       \
-           "because the screen does not show it.")                                                                     \
+           "because the screen does not show it; and, where scene rays follow and thickness_mode is constant, any "    \
+           "hit of a ray that passed behind a surface, which may have stopped it.")                                    \
     VALUE(float, edgeFade, 0.0, 0.0, 0.5,                                                                              \
           "Fade out hits this close to the screen edge, as a fraction of the screen's size. Hides hard cut-offs of "   \
           "reflections.")                                                                                              \
@@ -123,6 +124,7 @@ struct ScreenImages {
     gpu::History lit;      ///< of the last frame, reprojected by the hit's motion
     gpu::Image
         lightMips;  ///< from makeLightMips, of the image that hits read; blurs the light at hits of cones (Ray.spread)
+    bool certainNext = false;        ///< misses go on to a source that finds the actual hit
     bool leavesOutMirrors = false;   ///< smooth metals answer no rays: what they show is the camera's alone
     bool leavesOutEmitters = false;  ///< hits do not read what surfaces with materialFlagEmitter emit
 };
