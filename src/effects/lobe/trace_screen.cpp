@@ -67,7 +67,6 @@ gpu::ComputePass& bindScreenLight(gpu::PassList& f, gpu::ComputePass& pass, cons
     return pass.constant("readsPrevious", params.settings.light == HitLight::previous ? 1U : 0U)
         .constant("secondLayer", seen.backDepth ? 1U : 0U)
         .constant("leavesOutEmitters", seen.leavesOutEmitters ? 1U : 0U)
-        .constant("certainNext", seen.certainNext ? 1U : 0U)
         .constant("leavesOutMirrors", seen.leavesOutMirrors ? 1U : 0U)
         .constant("cones", seen.lightMips ? 1U : 0U)
         .read("depth", seen.g.depth)
@@ -94,6 +93,7 @@ gpu::ComputePass& bindScreen(gpu::PassList& f, gpu::ComputePass& pass, const Scr
         .constant("jitters", s.jitter)
         .constant("rejectsBackfaces", s.rejectBackfaces)
         .constant("fades", fades ? 1U : 0U)
+        .constant("certainNext", seen.certainNext ? 1U : 0U)
         .constant("tellsMotion", tellsMotion ? 1U : 0U)
         .read("pyramid", seen.pyramid ? seen.pyramid : f.placeholder(VK_FORMAT_R32G32_SFLOAT))
         .write("imageMotion", tellsMotion ? imageMotion : f.placeholder(VK_FORMAT_R16G16_SFLOAT));
