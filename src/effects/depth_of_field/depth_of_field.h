@@ -47,8 +47,8 @@ const uint dofFront = 1;       // disks of the near layer reach the tile
 const uint dofHighlights = 1;  // highlights reach it
 const uint dofSmall = 2;       // disks that are drawn at full resolution may reach it
 
-// Groups per row of the indirect dispatch over a list. The lists are one image, of 10125 rows for 7680x4320 pixels: images
-// of 16384 are everywhere.
+// Groups per row of the indirect dispatch over a list. The lists are one image, of 10125 rows for 7680x4320 pixels:
+// images of 16384 are everywhere.
 const uint dofListRow = 128;
 // Tiles per group of dofGatherLarge and dofBright; of the other lists 1.
 const uint dofGroupTiles = 4;
