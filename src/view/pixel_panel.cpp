@@ -53,7 +53,8 @@ std::string explanation(const RecordedRay& ray, const Settings& all) {
             ray.distance, at, ray.confidence, ray.edge, ray.far, ray.camera);
     } else if (ray.outcome == RayOutcome::hit) {
         why = fmt::format(
-            "Miss: after {:.3g} m it meets the surface at {} from behind or from a side that the screen does not show, or "
+            "Miss: after {:.3g} m it meets the surface at {} from behind or from a side that the screen does not show, "
+            "or "
             "it passed behind something before (trace_screen.reject_backfaces).",
             ray.distance, at);
     } else if (ray.outcome == RayOutcome::leftScreen) {
