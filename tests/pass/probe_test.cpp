@@ -273,7 +273,7 @@ TEST(Probe, OneBoxBlendsIntoTheNextWithoutAStep) {
         {{{-2, 1, 0}, {vec3(-4, -0.1F, -2), vec3(0, 3, 2)}}, {{2, 1, 0}, {vec3(0, -0.1F, -2), vec3(4, 3, 2)}}}};
     const Pictures p =
         render(scene, view, size,
-               probeSettings({"probes.bounces=0", "probes.resolution=32", "probes.blend=1", "probes.parallax=none"}),
+               probeSettings({"probes.bounces=0", "probes.resolution=32", "probes.reach=0.155", "probes.parallax=none"}),
                {"specular_radiance"});
     EXPECT_NEAR(p.value("specular_radiance", 40, 4, 0), 1.0F, 0.01F) << "beside the first probe";
     EXPECT_NEAR(p.value("specular_radiance", 40, 4, 1), 0.0F, 0.01F);
@@ -306,7 +306,7 @@ TEST(Probe, FadesIntoTheEnvironmentOutsideOfItsBox) {
     view.environment.radiance = vec3(0, 0, 1);
     view.probes = {{{{0, 1, 0}, {vec3(-1, -0.1F, -2), vec3(1, 3, 2)}}}};
     const Pictures p =
-        render(scene, view, size, probeSettings({"probes.bounces=0", "probes.resolution=32", "probes.blend=1"}),
+        render(scene, view, size, probeSettings({"probes.bounces=0", "probes.resolution=32", "probes.reach=0.184"}),
                {"specular_radiance", "specular_source"});
     EXPECT_NEAR(p.value("specular_radiance", 62, 4, 0), 1.0F, 0.01F) << "in the box, near its end";
     EXPECT_NEAR(p.value("specular_radiance", 30, 4, 2), 1.0F, 0.01F) << "beyond it";

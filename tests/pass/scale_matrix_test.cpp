@@ -101,7 +101,7 @@ Settings settingsFor(const std::string& preset, float size) {
     Settings settings;
     applyPreset(settings, preset);
     for (float* metres : {&settings.shadow.constantBias, &settings.traceScreen.thickness,
-                          &settings.traceScreen.maxDistance, &settings.diffuse.maxDistance, &settings.probes.blend}) {
+                          &settings.traceScreen.maxDistance, &settings.diffuse.maxDistance}) {
         *metres *= size;
     }
     return settings;

@@ -58,7 +58,7 @@ const std::vector<Context>& contexts() {
         {"probes.", {"probes.enabled=true", "probes.resolution=16", "probes.count=1"}, "cornell"},
         {"probes.resolution", {"probes.enabled=true", "probes.count=1", "probes.bounces=0"}, "cornell"},
         {"probes.enabled", {"probes.resolution=16"}, "cornell"},
-        {"probes.blend", {"probes.enabled=true", "probes.resolution=16", "probes.count=4"}, "mirror-hall"},
+        {"probes.reach", {"probes.enabled=true", "probes.resolution=16", "probes.count=4"}, "mirror-hall"},
         {"planar.", {"planar.enabled=true"}, "mirror-hall"},
         {"planar.enabled", {}, "mirror-hall"},
         {"planar.before_screen", {"planar.enabled=true", "planar.scale=0.25"}, "mirror-hall"},

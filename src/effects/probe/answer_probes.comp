@@ -34,7 +34,9 @@ uint probeCount() { return params.probes.count; }
 ProbeParams loadProbe(uint index) { return params.probes.probes[index]; }
 #include "effects/probe/probes.glsl"
 
-RayAnswer answerRay(ivec3 slot, Ray ray) {
+const float seenCertainly = 0.5;
+
+ProbeAnswer askProbes(ivec3 slot, Ray ray) {
     ivec2 pixel = slot.xy;
     float d = texelFetch(depth, pixel, 0).r;
     vec3 p = rayOrigin(slot, d, params.view);
@@ -44,12 +46,12 @@ RayAnswer answerRay(ivec3 slot, Ray ray) {
     bool one = lobe == lobeDiffuse && !hemisphere;
     float pick = one ? hashToUnit(hashPixel(uvec2(pixel), stream, params.view.frame)) : -1.0;
     ProbeQuery q = ProbeQuery(p, ray.direction, hemisphere ? 0.0 : ray.spread, hemisphere, parallax, 0.0, pick);
-    float hitDistance;
-    vec4 seen = sampleProbes(q, hitDistance);
+    ProbeAnswer a = sampleProbes(q);
     // Occlusion maps stand for nearby geometry that the rays could not hit.
     float occlusion = lobe == lobeDiffuse ? texelFetch(material, pixel, 0).b : 1.0;
     occlusion = min(occlusion, ambientVisibility(pixel, ray));
-    return RayAnswer(seen.rgb * occlusion / max(seen.a, 1e-4), seen.a, hitDistance);
+    a.seen.rgb *= occlusion;
+    return a;
 }
 
 void main() {
@@ -58,7 +60,10 @@ void main() {
         WaitingRay w = unpackWaitingRay(waiting.items[i]);
         if (!isKnownMiss(w)) {  // else the ray is known to reach the sky, which a probe's box would hide
             Ray ray = unpackRay(imageLoad(direction, w.slot).xy);
-            w.rest = addAnswer(w.slot, answerRay(w.slot, ray), w.rest, sourceProbe);
+            ProbeAnswer a = askProbes(w.slot, ray);
+            RayAnswer answer = RayAnswer(a.seen.rgb / max(a.seen.a, 1e-4), a.seen.a, a.hitDistance);
+            w.rest = addAnswer(w.slot, answer, w.rest, sourceProbe);
+            w.lost = w.lost && a.certainty < seenCertainly;  // else what is left is the sky
         }
         if (w.rest > 0.0) {
             appendRay(w);

@@ -158,9 +158,14 @@ void sampleProbe(uint i, ProbeParams probe, ProbeQuery q, inout float share, ino
     hitDistance += seen.a * point.distance;
 }
 
-// rgb: radiance · a; a: confidence, 0..1: lower at box borders and toward the sky. Continuous in the origin, or, if one
-// probe answers, in the mean.
-vec4 sampleProbes(ProbeQuery q, out float hitDistance) {
+struct ProbeAnswer {
+    vec4 seen;          // rgb: radiance · a; a: confidence, 0..1: lower at box borders and toward the sky
+    float hitDistance;  // metres
+    float certainty;    // 0..1: how much of the answer was seen by probes rather than guessed from their boxes
+};
+
+// Continuous in the origin, or, if one probe answers, in the mean.
+ProbeAnswer sampleProbes(ProbeQuery q) {
     uint count = probeCount();
     float inside = 0.0;
     float largest = 0.0;
@@ -176,8 +181,9 @@ vec4 sampleProbes(ProbeQuery q, out float hitDistance) {
     }
     vec4 sum = vec4(0.0);
     float weights = 0.0;
+    float asked = 0.0;   // the same without their certainty
     float before = 0.0;  // the weight of the probes before this one
-    hitDistance = 0.0;
+    float hitDistance = 0.0;
     bool one = q.pick >= 0.0;
     float chosen = one ? q.pick * total : 0.0;
     // If the chosen one does not see the ray, the next may. In turn around the probes; !one: once.
@@ -198,12 +204,13 @@ vec4 sampleProbes(ProbeQuery q, out float hitDistance) {
             float share = weight;
             sampleProbe(i, loadProbe(i), q, share, sum, hitDistance);
             weights += share;
+            asked = one ? max(asked, weight) : asked + weight;
             k = one && share > enough * weight ? turns : k;
         }
     }
     hitDistance /= max(sum.a, 1e-6);
     sum /= max(weights, 1e-6);
-    return inside * sum;
+    return ProbeAnswer(inside * sum, hitDistance, min(weights / max(asked, 1e-6), 1.0));
 }
 
 #endif

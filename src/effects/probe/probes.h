@@ -23,20 +23,22 @@ CHOICES(ProbeParallax, PROBE_PARALLAXES)
 #define PROBES_SETTINGS(VALUE, SWITCH, CHOICE)                                                                         \
     SWITCH(enabled, 0,                                                                                                 \
            "Reflection probes: cube maps captured in the scene, used before the environment for rays without a hit.")  \
-    VALUE(uint, count, 4, 0, 16, "Maximum number of probes placed automatically, if the view file lists none.")        \
-    VALUE(uint, resolution, 128, 16, 512, "Side of a cube map face in texels, rounded down to a power of two.")        \
+    VALUE(uint, count, 8, 0, 16,                                                                                       \
+          "Maximum number of probes placed automatically, if the view file lists none. Fewer where these show all "    \
+          "that lights what the camera sees.")                                                                         \
+    VALUE(uint, resolution, 64, 16, 512, "Side of a cube map face in texels, rounded down to a power of two.")         \
     CHOICE(ProbeRefresh, refresh, once,                                                                                \
            "When probes are captured. once: all of them, and again when lights or probes change. face: one cube face " \
            "per frame, always with the current lighting. moving: as once, and again whenever something moved.")        \
-    VALUE(uint, bounces, 2, 0, 8,                                                                                      \
-          "Bounces of indirect light in the captures. Each costs one more capture that is lit by the previous one. "   \
-          "With refresh face: 0 is none, otherwise each round over the faces adds one.")                               \
+    VALUE(uint, bounces, 4, 0, 8,                                                                                      \
+          "Bounces of indirect light in the captures. Each lights the captured surfaces again by all probes; nothing " \
+          "is drawn for it. With refresh face: 0 is none, otherwise each round over the faces adds one.")              \
     CHOICE(ProbeParallax, parallax, depth,                                                                             \
            "Parallax correction. depth: march rays through the distances that the probe captured; box: intersect "     \
            "them with the probe's box (box projection), faster; none: the cube map is taken as infinitely far away.")  \
-    VALUE(float, blend, 20.0, 0.0, 100.0,                                                                              \
-          "Distance outside of its box over which a probe fades out, in metres. Short: what no box reaches has only "  \
-          "the environment's light.")
+    VALUE(float, reach, 4.0, 0.0, 100.0,                                                                               \
+          "Distance outside of its box over which a probe fades out, in diagonals of the box. Short: what no box "     \
+          "reaches has only the environment's light.")
 SETTINGS(ProbesSettings, PROBES_SETTINGS)
 
 const uint maxProbes = 16;

@@ -35,7 +35,7 @@ ProbeBlock blockOf(std::span<const Probe> probes, const ProbesSettings& settings
     for (uint32_t i = 0; i < block.count; ++i) {
         const Aabb& box = probes[i].box;
         block.probes[i] = {.position = probes[i].position,
-                           .blend = settings.blend,
+                           .blend = settings.reach * glm::length(box.size()),
                            .boxMin = box.min,
                            .parallax = static_cast<uint32_t>(ProbeParallax::depth),
                            .boxMax = box.max,
@@ -112,6 +112,14 @@ void Probes::makeMaps(gpu::Context& context, uint32_t resolution) {
     }
 }
 
+Probes::Captured Probes::makeCaptured(gpu::PassList& f) const {
+    const auto scope = f.scope("probe");
+    const uvec2 size = distance_.info().size;
+    const uint32_t faces = block_.count * probeFaces;
+    return {f.image("lit", VK_FORMAT_R16G16B16A16_SFLOAT, size, faces, true),
+            f.image("surface", VK_FORMAT_R32G32B32A32_UINT, size, faces, true)};
+}
+
 gpu::Image Probes::captureFace(gpu::PassList& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap) {
     const auto scope = f.scope("probe");
     const uvec2 size = distance_.info().size;
@@ -122,29 +130,41 @@ gpu::Image Probes::captureFace(gpu::PassList& f, const Capture& capture, uint32_
                              in.view);
     const ViewImages images = directView(f, faces_, in, captureSettings(capture.settings), lampShadowMap);
     gpu::ComputePass pass = f.compute("capture_probe", "capture_probe.comp");
-    pass.params(in.environment.params, "environment");  // without its texels, which are not used here
-    bindEnvironmentLobes(pass, f.context(), in.environment);
     bindSurfaces(f, pass, images.g);
-    pass.constant("furtherLight", capture.furtherLight ? 1U : 0U)
-        .constant("splits", splits_ ? 1U : 0U)
-        .read("emissive", images.g.emissive)
+    pass.read("emissive", images.g.emissive)
         .read("depth", images.g.depth)
         .read("normal", images.g.normal)
         .read("baseColor", images.g.baseColor)
         .read("material", images.g.material)
         .read("ggxTable", in.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
         .read("direct", images.direct)
+        .write("lit", capture.out.lit)
+        .write("surface", capture.out.surface)
+        .write("distance", distance_.mip(0))
+        .params(CaptureProbeParams{in.view, face})
+        .dispatch(size);
+    return images.lampShadowMap;
+}
+
+void Probes::relight(gpu::PassList& f, const Capture& capture, const CubeFaces& faces, bool furtherLight) {
+    const auto scope = f.scope("probe");
+    const uvec2 size = distance_.info().size;
+    gpu::ComputePass pass = f.compute("relight_probes", "relight_probes.comp");
+    pass.params(capture.in.environment.params, "environment");  // without its texels, which are not used here
+    bindEnvironmentLobes(pass, f.context(), capture.in.environment);
+    pass.constant("furtherLight", furtherLight ? 1U : 0U)
+        .constant("splits", splits_ ? 1U : 0U)
+        .read("lit", capture.out.lit)
+        .read("surface", capture.out.surface)
         .read("probeLobes", map_.lobes.image(), probeSampler(f.context()))
         .read("probeIrradiance", forDiffuse().irradiance.image())
-        .read("probeDistance", map_.lobes.image())  // placeholder: unused here, and the real one is being written
+        .read("probeDistance", distance_.image(), probeSampler(f.context()))
         .write("sharp", map_.sharp.mip(0))
         .write("matte",
                splits_ ? matte_.sharp.mip(0) : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT, gpu::ViewKind::array))
-        .write("distance", distance_.mip(0))
         .write("atlas", atlas_.image())
-        .params(CaptureProbeParams{in.view, face, block_})
-        .dispatch(size);
-    return images.lampShadowMap;
+        .params(RelightProbesParams{faces.first, block_})
+        .dispatch(size.x, size.y, faces.count);
 }
 
 void Probes::filter(gpu::PassList& f, uint32_t firstCube, uint32_t count) {
@@ -157,11 +177,14 @@ void Probes::filter(gpu::PassList& f, uint32_t firstCube, uint32_t count) {
 }
 
 void Probes::captureAll(gpu::PassList& f, const ViewInputs& in, const Settings& settings) {
+    const Capture capture{in, settings, makeCaptured(f)};
+    const CubeFaces faces{0, block_.count * probeFaces};
     gpu::Image lampShadowMap;
+    for (uint32_t face = 0; face < faces.count; ++face) {
+        lampShadowMap = captureFace(f, capture, face, lampShadowMap);
+    }
     for (uint32_t bounce = 0; bounce <= settings.probes.bounces; ++bounce) {
-        for (uint32_t face = 0; face < block_.count * probeFaces; ++face) {
-            lampShadowMap = captureFace(f, {in, settings, bounce > 0}, face, lampShadowMap);
-        }
+        relight(f, capture, faces, bounce > 0);
         filter(f, 0, block_.count);
     }
 }
@@ -169,7 +192,9 @@ void Probes::captureAll(gpu::PassList& f, const ViewInputs& in, const Settings& 
 void Probes::captureNextFace(gpu::PassList& f, const ViewInputs& in, const Settings& settings) {
     const uint32_t faces = block_.count * probeFaces;
     const uint32_t face = facesCaptured_ % faces;
-    captureFace(f, {in, settings, settings.probes.bounces > 0 && facesCaptured_ >= faces}, face);
+    const Capture capture{in, settings, makeCaptured(f)};
+    captureFace(f, capture, face);
+    relight(f, capture, {face, 1}, settings.probes.bounces > 0 && facesCaptured_ >= faces);
     ++facesCaptured_;
     if (face % probeFaces == probeFaces - 1) {
         filter(f, face / probeFaces, 1);

@@ -11,6 +11,10 @@ SHARED_BEGIN
 struct CaptureProbeParams {
     ViewParams view;
     uint face;  // 6 · probe + its number
+};
+
+struct RelightProbesParams {
+    uint firstFace;
     ProbeBlock probes;
 };
 
@@ -46,10 +50,15 @@ public:
     void restart(bool sceneMoves);
 
 private:
+    /// Faces as they are drawn, of all probes, in this frame only.
+    struct Captured {
+        gpu::Image lit;      ///< RGBA16F: direct light
+        gpu::Image surface;  ///< RGBA32UI, see probe_surface.glsl
+    };
     struct Capture {
         const ViewInputs& in;
         const Settings& settings;
-        bool furtherLight;  ///< add indirect light from the existing maps
+        Captured out;
     };
     void makeMaps(gpu::Context& context, uint32_t resolution);
     /// Prefilters the captured faces.
@@ -57,8 +66,12 @@ private:
     [[nodiscard]] const CubeMap& forDiffuse() const { return splits_ ? matte_ : map_; }
     void captureAll(gpu::PassList& f, const ViewInputs& in, const Settings& settings);
     void captureNextFace(gpu::PassList& f, const ViewInputs& in, const Settings& settings);
+    [[nodiscard]] Captured makeCaptured(gpu::PassList& f) const;
     /// face: 6 · probe + its number. Returns the lamps' shadow map, to be shared with other faces of the frame.
     gpu::Image captureFace(gpu::PassList& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap = {});
+
+    /// furtherLight: adds indirect light from the existing maps.
+    void relight(gpu::PassList& f, const Capture& capture, const CubeFaces& faces, bool furtherLight);
 
     DirectViewStore faces_;  ///< of the face that is captured
     CubeMap map_;

@@ -133,16 +133,41 @@ float openness(const Bodies& bodies, const vec3& p) {
     return static_cast<float>(open) / static_cast<float>(count);
 }
 
-// Share of the light on what the camera sees that comes from other surfaces: of cosine-distributed rays from there
-// those that meet one. 0 of a single convex object.
-float surrounded(const Bodies& bodies, const Aabb& bounds, const vec3& eye) {
-    constexpr int views = 256;
+// A place that lights others.
+struct Lighting {
+    vec3 point;  ///< just in front of the surface
+    vec3 normal;
+    float weight;
+};
+
+// What lights the surfaces that the camera sees.
+struct Walks {
+    std::vector<Lighting> lights;  ///< ends of their rays, and of rays from there
+    std::vector<vec3> between;     ///< places in free space: middles of the rays
+    float met = 1.0F;              ///< share of the rays that meet a surface, 0 of a single convex object
+};
+
+constexpr int views = 256;
+
+vec3 aroundNormal(const vec3& normal, int i, int k) {
+    return normal + 0.999F * spread((i * 7 + k * 31) % views, views);  // distributed by the cosine
+}
+
+// Cosine-distributed rays from what the camera sees, in all directions, so that the camera's own does not matter.
+Walks walkFrom(const Bodies& bodies, const Aabb& bounds, const vec3& eye) {
     constexpr int each = 8;
+    constexpr int kept = 2;  // of them, of every other view
     const float least = 1e-4F * glm::length(bounds.size());
+    Walks walks;
     int rays = 0;
     int met = 0;
+    const auto keep = [&](const vec3& from, const vec3& direction, const Hit& hit, float weight) {
+        const vec3 end = from + direction * hit.distance + hit.normal * least;
+        walks.lights.push_back({end, hit.normal, weight});
+        walks.between.push_back(0.5F * (from + end));
+        return end;
+    };
     for (int i = 0; i < views; ++i) {
-        // Toward a place in the bounds, so that the camera's direction does not matter.
         const vec3 place =
             bounds.center() + 0.5F * bounds.size() * spread(i, views) * (static_cast<float>(i % 4) + 0.5F) / 4.0F;
         const vec3 direction = place - eye;
@@ -150,14 +175,35 @@ float surrounded(const Bodies& bodies, const Aabb& bounds, const vec3& eye) {
         if (!seen || !(glm::length(direction) > 0.0F)) {
             continue;
         }
-        const vec3 at = eye + direction * seen.distance;
+        const vec3 at = eye + direction * seen.distance + seen.normal * least;
         for (int k = 0; k < each; ++k) {
-            const vec3 away = seen.normal + 0.999F * spread((i * 7 + k * 31) % views, views);
+            const vec3 away = aroundNormal(seen.normal, i, k);
+            const Hit hit = bodies.trace(at, away);
             rays += 1;
-            met += bodies.trace(at + seen.normal * least, away) ? 1 : 0;
+            met += hit ? 1 : 0;
+            if (hit && k < kept && i % 2 == 0) {
+                const vec3 end = keep(at, away, hit, 1.0F);
+                const vec3 further = aroundNormal(hit.normal, i, k + each);
+                if (const Hit next = bodies.trace(end, further)) {
+                    keep(end, further, next, 0.5F);
+                }
+            }
         }
     }
-    return rays > 0 ? static_cast<float>(met) / static_cast<float>(rays) : 1.0F;
+    walks.met = rays > 0 ? static_cast<float>(met) / static_cast<float>(rays) : 1.0F;
+    return walks;
+}
+
+// How well a probe at p shows the place, 0 to 1: near to it and from the front. nearby: a distance that is near [m].
+float shown(const Bodies& bodies, const vec3& p, const Lighting& light, float nearby) {
+    const vec3 direction = light.point - p;
+    const float distance = glm::length(direction);
+    const float cosine = -glm::dot(direction, light.normal) / std::max(distance, 1e-20F);
+    if (!(cosine > 0.0F) || bodies.trace(p, direction).distance < 1.0F) {
+        return 0.0F;
+    }
+    const float far = distance / nearby;
+    return cosine / (cosine + far * far);
 }
 
 // The camera sees nothing of the closed space that it is in: that is in a thing, or behind its walls.
@@ -214,6 +260,47 @@ glm::uvec3 cellsOf(const vec3& size, uint32_t count) {
     }
 }
 
+// Probes' places among the sites: each the one that shows most of what lights the scene and is not shown yet (greedy
+// maximum coverage). Earlier sites win where others are hardly better.
+std::vector<vec3> chooseSites(const Bodies& bodies, const std::vector<vec3>& sites, const Walks& walks, uint32_t count,
+                              float nearby) {
+    constexpr float hardlyBetter = 1.05F;
+    constexpr float worthwhile = 0.005F;  // least share of all light that a further probe shows better
+    const size_t lights = walks.lights.size();
+    std::vector<float> shows(sites.size() * lights);
+    float all = 0.0F;
+    for (size_t i = 0; i < lights; ++i) {
+        all += walks.lights[i].weight;
+        for (size_t site = 0; site < sites.size(); ++site) {
+            shows[site * lights + i] = shown(bodies, sites[site], walks.lights[i], nearby);
+        }
+    }
+    std::vector<vec3> chosen;
+    std::vector<float> best(lights, 0.0F);
+    while (chosen.size() < count) {
+        float most = 0.0F;
+        size_t next = sites.size();
+        for (size_t site = 0; site < sites.size(); ++site) {
+            float gain = 0.0F;
+            for (size_t i = 0; i < lights; ++i) {
+                gain += walks.lights[i].weight * std::max(shows[site * lights + i] - best[i], 0.0F);
+            }
+            if (gain > hardlyBetter * most) {
+                most = gain;
+                next = site;
+            }
+        }
+        if (next == sites.size() || most < worthwhile * all) {
+            return chosen;
+        }
+        for (size_t i = 0; i < lights; ++i) {
+            best[i] = std::max(best[i], shows[next * lights + i]);
+        }
+        chosen.push_back(sites[next]);
+    }
+    return chosen;
+}
+
 }  // namespace
 
 std::vector<Probe> placeProbes(const Scene& scene, uint32_t count, const vec3& eye) {
@@ -223,20 +310,38 @@ std::vector<Probe> placeProbes(const Scene& scene, uint32_t count, const vec3& e
         return probes;
     }
     Bodies bodies(scene);
-    if (surrounded(bodies, bounds, eye) < leastSurrounded) {
+    const Walks walks = walkFrom(bodies, bounds, eye);
+    if (walks.met < leastSurrounded) {
         return probes;
     }
-    const glm::uvec3 cells = cellsOf(bounds.size(), std::min(count, View::maxProbes));
-    const vec3 cell = bounds.size() / vec3(cells);
-    const float clear = clearance * std::min({cell.x, cell.y, cell.z});
-    for (uint32_t i = 0; i < cells.x * cells.y * cells.z; ++i) {
-        const glm::uvec3 at(i % cells.x, i / cells.x % cells.y, i / cells.x / cells.y);
-        const vec3 middle = bounds.min + (vec3(at) + 0.5F) * cell;
-        findSolids(bodies, middle, eye);
+    std::vector<vec3> sites;
+    const auto add = [&](const vec3& middle, float clear) {
         const vec3 p = keepClear(bodies, leaveBodies(bodies, middle, clear), clear);
         if (!isInside(bodies, castAxisRays(bodies, p)) && !isHidden(bodies, p, eye)) {
-            probes.push_back({p, boxAround(bodies, p, bounds)});
+            sites.push_back(p);
         }
+    };
+    constexpr uint32_t mostCells = 16;
+    constexpr size_t mostBetween = 32;
+    float clear = 0.0F;
+    for (uint32_t split = 1; split <= mostCells; split *= 2) {  // coarse ones first
+        const glm::uvec3 cells = cellsOf(bounds.size(), split);
+        const vec3 cell = bounds.size() / vec3(cells);
+        clear = clearance * std::min({cell.x, cell.y, cell.z});
+        for (uint32_t i = 0; i < cells.x * cells.y * cells.z; ++i) {
+            const glm::uvec3 at(i % cells.x, i / cells.x % cells.y, i / cells.x / cells.y);
+            const vec3 middle = bounds.min + (vec3(at) + 0.5F) * cell;
+            findSolids(bodies, middle, eye);
+            add(middle, clear);
+        }
+    }
+    for (size_t i = 0; i < walks.between.size(); i += std::max<size_t>(1, walks.between.size() / mostBetween)) {
+        add(walks.between[i], clear);
+    }
+    constexpr float nearPart = 0.25F;
+    const float nearby = nearPart * glm::length(bounds.size());
+    for (const vec3& p : chooseSites(bodies, sites, walks, std::min(count, View::maxProbes), nearby)) {
+        probes.push_back({p, boxAround(bodies, p, bounds)});
     }
     return probes;
 }

@@ -190,9 +190,8 @@ vec3 scatter(LitPoint at, bool diffuseOnly, inout uint random, out SceneRay next
 const float roughest = 0.5;  // rougher lobes are taken for hemispheres
 
 vec3 probesOrEnvironment(vec3 position, vec3 direction, float roughness, bool hemisphere) {
-    float unused;
     ProbeQuery q = ProbeQuery(position, direction, roughness, hemisphere, ProbeParallax_depth, 1e6, -1.0);
-    vec4 seen = sampleProbes(q, unused);
+    vec4 seen = sampleProbes(q).seen;
     if (seen.a >= 1.0) {
         return seen.rgb;
     }
