@@ -12,6 +12,11 @@
 // Up to this perceptual roughness, reflections have little noise and sharp edges that a blur would destroy.
 const float smoothRoughness = 0.1;
 
+// How near the surroundings are that diffuse light comes from, relative to the viewer. Its mean gives the harmonic mean of
+// the rays' distances, which bounds how fast irradiance changes along a surface (Ward, Rubinstein and Clear, A Ray Tracing
+// Solution for Diffuse Interreflection, SIGGRAPH 1988). The same function gives the distance back.
+float nearnessOf(float hitDistance, float viewDistance) { return viewDistance / max(hitDistance, 1e-5 * viewDistance); }
+
 // A pixel's surface in the denoiser's history.
 struct KeptSurface {
     float depth;  // reversed; 0: no surface with this lobe

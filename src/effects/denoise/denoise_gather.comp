@@ -61,7 +61,7 @@ const float framesInMotionRough = 64.0;
 
 // This frame's light of the pixel and its neighbours on the same surface.
 struct Neighbourhood {
-    vec4 light;     // firefly-clamped, plus the excess of neighbouring fireflies; mean hit distance of the neighbourhood
+    vec4 light;     // firefly-clamped, plus the excess of neighbouring fireflies; mean hit distance of the neighbourhood, diffuse: nearness
     vec3 mean;      // of the neighbourhood
     vec3 variance;  // per pixel
     vec4 directional;  // of the light
@@ -90,6 +90,7 @@ Neighbourhood gatherNeighbourhood(ivec2 pixel, float d, ScreenPlane plane) {
     float inside = 0.0;
     float traced = 0.0;
     float away = 0.0;
+    float viewDistance = depthToViewDistance(d, params.view.depthToDistance);
     s.found = 0.0;
     s.traced = false;
     for (int i = 0; i < 9; ++i) {
@@ -122,7 +123,7 @@ Neighbourhood gatherNeighbourhood(ivec2 pixel, float d, ScreenPlane plane) {
             sum += kept;
             squares += kept * kept;
             s.found += 1.0;
-            away += clamp(texel.a, 0.0, largestHalf);
+            away += clamp(lobe == 0u ? nearnessOf(texel.a, viewDistance) : texel.a, 0.0, largestHalf);
         }
     }
     float found = max(s.found, 1.0);

@@ -23,7 +23,7 @@ CHOICES(ProbeParallax, PROBE_PARALLAXES)
 #define PROBES_SETTINGS(VALUE, SWITCH, CHOICE)                                                                         \
     SWITCH(enabled, 0,                                                                                                 \
            "Reflection probes: cube maps captured in the scene, used before the environment for rays without a hit.")  \
-    VALUE(uint, count, 8, 0, 16,                                                                                       \
+    VALUE(uint, count, 12, 0, 16,                                                                                      \
           "Maximum number of probes placed automatically, if the view file lists none. Fewer where these show all "    \
           "that lights what the camera sees.")                                                                         \
     VALUE(uint, resolution, 64, 16, 512, "Side of a cube map face in texels, rounded down to a power of two.")         \
