@@ -6,7 +6,8 @@ neighbour in place, normal, albedo, depth and colour. What is learned is how the
 surroundings: theta = softplus(features W). That is a kernel-predicting filter (Bako et al. 2017) whose network is one
 layer, small enough to derive by hand, and trained in a minute.
 
-    reflet dataset builtin:cubes builtin:cave builtin:cornell builtin:gloss builtin:moving -o data --frames 64 --noisy 4
+    reflet dataset builtin:cubes builtin:cave builtin:cornell builtin:gloss builtin:moving -o data --frames 64 \
+        --spp 128 --noise 0.05 --noisy 4 --seed 1
     PYTHONPATH=python python3 examples/denoiser/train.py data
 """
 

@@ -27,7 +27,8 @@ class Frame(Mapping):
 
     name = property(lambda self: self.record["name"])
     scene = property(lambda self: self.record["scene"])
-    exposure = property(lambda self: self.record["exposure"], doc="Stops for tone_map.")
+    # Data sets of program 0.2.0 have stops in `exposure`, which is a factor now.
+    exposure = property(lambda self: self.record.get("exposure_stops", self.record["exposure"]), doc="Stops for tone_map.")
 
     def matrix(self, name):
         """world_to_view, view_to_clip, previous_world_to_view or previous_view_to_clip, for column vectors."""

@@ -60,8 +60,8 @@ void addLightOptions(CLI::App& command, DatasetOptions& o) {
         ->capture_default_str();
     command
         .add_option("--environments", o.environments,
-                    "Environments to draw from, each turned at random: sky, studio, none, files, and folders of .hdr "
-                    "and .exr files [the scene's]")
+                    "Environments to draw from: sky, studio, none, files, and folders of .hdr and .exr files, which "
+                    "are turned at random [the scene's]")
         ->type_name("A,B,...")
         ->delimiter(',')
         ->allow_extra_args(false);
@@ -103,7 +103,7 @@ void addImageOptions(CLI::App& command, DatasetOptions& o) {
                     "Image Denoise read them")
         ->check(CLI::IsMember({"exr", "oidn"}))
         ->capture_default_str();
-    command.add_flag("--ldr", o.displayed, "Layout oidn: also tone-mapped images (.ldr.exr)");
+    command.add_flag("--ldr", o.displayed, "Layout oidn: also tone-mapped images (.ldr.exr), linear from 0 to 1");
     command.add_flag("--float", o.floats, "Radiance, albedo and normals as 32-bit floats instead of half floats");
 }
 

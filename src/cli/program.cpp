@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <new>
+#include <sstream>
 
 namespace reflet {
 
@@ -69,12 +70,34 @@ void checkSubcommand(CLI::App& app, std::span<char* const> arguments) {
     checkSubcommand(*app.get_subcommand(name), arguments.subspan(1));
 }
 
-// The error for the first argument that no option consumed, with the option it was probably meant to be.
-std::string unexpectedArgument(const CLI::App& app) {
+const CLI::App& chosenCommand(const CLI::App& app) {
     const CLI::App* command = &app;
     while (!command->get_subcommands().empty()) {
         command = command->get_subcommands().front();
     }
+    return *command;
+}
+
+// CLI11 writes the ends of ranges with six decimals: "not in range 1.000000 to 179.000000".
+std::string withShortRange(const std::string& error) {
+    constexpr std::string_view before = "not in range ";
+    const size_t at = error.find(before);
+    if (at == std::string::npos) {
+        return error;
+    }
+    std::istringstream range(error.substr(at + before.size()));
+    double min = 0.0;
+    double max = 0.0;
+    std::string to;
+    if (!(range >> min >> to >> max)) {
+        return error;
+    }
+    return fmt::format("{}{} to {}", error.substr(0, at + before.size()), min, max);
+}
+
+// The error for the first argument that no option consumed, with the option it was probably meant to be.
+std::string unexpectedArgument(const CLI::App& app) {
+    const CLI::App* command = &chosenCommand(app);
     const std::vector<std::string> rest = command->remaining();
     if (rest.empty()) {
         return fmt::format("unexpected argument (see {} --help)", fullName(*command));
@@ -110,7 +133,8 @@ int parseAndRun(int argc, char** argv, std::span<const AddCommand> commands) {
     } catch (const CLI::ExtrasError&) {
         return reportError(unexpectedArgument(app), exitUsage);
     } catch (const CLI::ParseError& error) {
-        return reportError(fmt::format("{} (see reflet --help)", error.what()), exitUsage);
+        return reportError(
+            fmt::format("{} (see {} --help)", withShortRange(error.what()), fullName(chosenCommand(app))), exitUsage);
     }
     if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {  // whoever flushed before has not looked
         return reportError("cannot write to standard output", exitFailed);

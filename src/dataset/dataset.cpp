@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace reflet {
 
@@ -207,7 +208,8 @@ private:
         addView(record, now, was, size_);
         record["camera_tries"] = job.shot.tries();
         record["environment"] = std::filesystem::path(job.shot.environment()).filename().string();
-        record["exposure"] = images.exposure;
+        record["exposure"] = std::exp2(images.exposure);  // the tools of Open Image Denoise read this key as a factor
+        record["exposure_stops"] = images.exposure;
         record["clean"] = {{"spp", images.clean.samples},
                            {"noise", images.clean.noise},
                            {"clamp", options_.clamp},

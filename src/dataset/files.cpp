@@ -1,6 +1,7 @@
 // Writes the files of a data set.
 #include "dataset/files.h"
 
+#include "base/color.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json_text.h"
@@ -30,6 +31,7 @@ void append(std::vector<ImageLayer>& all, std::vector<ImageLayer> more) {
     std::ranges::move(more, std::back_inserter(all));
 }
 
+// Linear, as files of low dynamic range are for the training tools: they encode them themselves.
 FloatImage displayed(const FloatImage& radiance, float exposure) {
     TonemapSettings tonemap;
     tonemap.exposure = exposure;
@@ -38,7 +40,7 @@ FloatImage displayed(const FloatImage& radiance, float exposure) {
     FloatImage image{bitmap.width, bitmap.height, {"R", "G", "B"}, {}};
     for (size_t i = 0; i < bitmap.data.size(); ++i) {
         if (i % bitmap.channels < 3) {
-            image.data.push_back(static_cast<float>(bitmap.data[i]) / 255.0F);
+            image.data.push_back(decodeSrgb(static_cast<float>(bitmap.data[i]) / 255.0F));
         }
     }
     return image;

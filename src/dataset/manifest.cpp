@@ -49,7 +49,9 @@ void checkNoisy(const DatasetOptions& o) {
         applyPreset(settings, name);
     }
     if (o.displayed && o.layout != "oidn") {
-        failUsage("--ldr is for --layout oidn; of others, the display image is final times 2^exposure, tone mapped");
+        failUsage(
+            "--ldr is for --layout oidn; of others, the display image is final times the record's exposure, tone "
+            "mapped");
     }
 }
 
@@ -141,7 +143,7 @@ void beginDataset(const DatasetOptions& o, const DatasetPlan& plan, const std::v
     const ordered_json record{
         {"reflet", versionText},
         {"kind", "reflet dataset"},
-        {"version", 1},
+        {"version", 2},
         {"frames", o.frames},
         {"burst", o.burst},
         {"fps", o.fps},

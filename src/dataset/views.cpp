@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "dataset/free_space.h"
+#include "reference/reference.h"
 #include "scene/default_light.h"
 #include "scene/pose.h"
 
@@ -16,6 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int mostDarkViews = 8;
+
 // At least 5 degrees above the horizon.
 vec3 drawnSunDirection(Draws& draws) {
     for (;;) {
@@ -25,6 +28,15 @@ vec3 drawnSunDirection(Draws& draws) {
             return -up;
         }
     }
+}
+
+// Whether light reaches the image at all: behind an unlit wall, under a black sky, all is black.
+bool showsLight(const View& view, const DatasetScene& scene, TimedScene& timed) {
+    ReferenceOptions few;
+    few.samples = 16;
+    few.threads = 1;
+    const ReferencePicture seen = traceReference(timed.at(view.time), posed(view, scene.scene), uvec2(16, 9), few);
+    return std::ranges::any_of(seen.final.data, [](float value) { return value > 0.0F; });
 }
 
 bool isImage(const fs::path& file) {
@@ -107,11 +119,15 @@ Shot::Shot(const DatasetOptions& options, const ViewDraw& draw, const DatasetSce
     : first_(scene.view), index_(static_cast<int>(index)), fps_(options.fps) {
     Draws draws(options.view.seed, burst);
     if (options.cameras == "random") {
-        drawCamera(options, draw, scene, timed, draws);
+        for (int i = 0; i == 0 || (i < mostDarkViews && !showsLight(first_, scene, timed)); ++i) {
+            first_ = scene.view;
+            drawCamera(options, draw, scene, timed, draws);
+            drawLight(options, environments, draws);
+        }
     } else {
         path_ = &path;
+        drawLight(options, environments, draws);
     }
-    drawLight(options, environments, draws);
     exposure_ = draw.exposure.draw(draws);
 }
 

@@ -117,6 +117,13 @@ TEST_F(DatasetCommand, LayersAddUpAndMotionLeadsToTheFrameBefore) {
     EXPECT_LT(off, seen / 10);
 }
 
+TEST_F(DatasetCommand, CamerasBehindUnlitWallsAreDrawnAgain) {
+    // The first camera that is drawn for the third frame is behind the box, under a black sky.
+    ASSERT_TRUE(quietSuccess(run({"dataset", "builtin:cornell", "-o", "d", "--frames", "3", "--spp", "4", "--noisy",
+                                  "1", "--size", "32x18", "--seed", "5", "--share", "3/3"})));
+    EXPECT_GT(std::ranges::max(layer("d/cornell/cornell_000002.exr", "final").data), 0.0F);
+}
+
 TEST_F(DatasetCommand, TheOtherLayoutIsThatOfTheTrainingTools) {
     ASSERT_TRUE(quietSuccess(run({"dataset", "builtin:cubes", "-o", "d", "--frames", "1", "--spp", "4", "--noisy", "1",
                                   "--size", "32x18", "--layout", "oidn", "--ldr", "--cameras", "orbit"})));

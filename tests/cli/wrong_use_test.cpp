@@ -40,7 +40,8 @@ TEST_F(WrongUse, AnUnknownOptionIsNamedWithTheNearest) {
 
 TEST_F(WrongUse, CamerasByAnglesNameTheirRanges) {
     EXPECT_TRUE(refused(renderWith({"--orbit", "-30,100"}), usage, {"--orbit", "-90 to 90", "'-30,100'"}));
-    EXPECT_TRUE(refused(renderWith({"--fov", "200"}), usage, {"--fov", "200", "179"}));
+    EXPECT_TRUE(refused(renderWith({"--fov", "200"}), usage,
+                        {"--fov", "200 not in range 1 to 179 (see reflet render --help)"}));
     EXPECT_TRUE(refused(renderWith({"--sun", "1"}), usage, {"--sun", "-360 to 360"}));
     EXPECT_TRUE(refused(render(cubes, {"-o", "a.jpg"}), usage, {"a.jpg", ".png", "JPEG"}));
 }
