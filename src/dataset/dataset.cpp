@@ -260,10 +260,10 @@ void tellThroughput(const DatasetOptions& options, const Maker& maker, double se
 void makeDataset(const DatasetOptions& options, const std::function<gpu::Device&()>& device) {
     const auto start = Clock::now();
     const InterruptNote note;
+    const Share share = parseShare(options.share);  // before the manifest, which would refuse the corrected options
     const DatasetPlan plan(options);
     Maker maker(options, plan, device);
     beginDataset(options, plan, maker.environments().names());
-    const Share share = parseShare(options.share);
     const SequencePlan segments{.frames = options.frames, .segment = options.burst, .warmUp = 0, .cuts = {}};
     noteEmptyShare(segments, share);
     const auto runs =

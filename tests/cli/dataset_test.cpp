@@ -144,6 +144,8 @@ TEST_F(DatasetCommand, RefusesOtherOptionsInAFolderAndWhatExcludesEachOther) {
         all.insert(all.end(), more.begin(), more.end());
         return run(all);
     };
+    EXPECT_TRUE(refused(with({"--share", "3/2"}), 2, {"--share"}));
+    EXPECT_FALSE(fs::exists(path("d"))) << "nothing is begun";
     ASSERT_TRUE(quietSuccess(run(one)));
     EXPECT_TRUE(refused(with({"--seed", "5"}), 1, {"manifest.json", "seed was 0, is 5", "empty the folder"}));
     EXPECT_TRUE(refused(with({"--fov", "nrmal"}), 2, {"--fov", "did you mean 'normal'"}));

@@ -28,7 +28,7 @@ const int taps = 8;
 // Cosine and sine of the golden angle, from each tap to the next.
 const vec2 goldenTurn = vec2(-0.737368878, 0.675490294);
 // Radius within which incoming light is about the same, relative to the lobe's width at the hit; diffuse: to the harmonic mean
-// of the distances. 0.5 leaves a tenth more noise in builtin:cave.
+// of the distances (0.3: 12 % more relative MSE in builtin:cave at frame 32).
 const float shareOfWay = 0.3;
 const float shareOfHarmonicWay = 0.8;
 // Fraction of the radius per unit of relative noise, at frame 32 in seven scenes: with 0.7 mottling of 4 to 8 pixels is half as

@@ -225,8 +225,8 @@ bool isHidden(const Bodies& bodies, const vec3& p, const vec3& eye) {
 }
 
 Aabb boxAround(const Bodies& bodies, const vec3& p, const Aabb& sceneBounds) {
-    constexpr std::array<vec2, 5> asides{vec2(0, 0), vec2(0.5F, 0.5F), vec2(-0.5F, 0.5F), vec2(0.5F, -0.5F),
-                                         vec2(-0.5F, -0.5F)};
+    constexpr std::array<vec2, 5> asides{vec2(0, 0), vec2(0.25F, 0.25F), vec2(-0.25F, 0.25F), vec2(0.25F, -0.25F),
+                                         vec2(-0.25F, -0.25F)};
     Aabb box;
     for (int side = 0; side < sides; ++side) {
         std::array<float, asides.size()> reach{};  // distances along the axis, as a ray's component there is 1
