@@ -100,7 +100,9 @@ View viewOf(const Form& form) {
 Settings settingsFor(const std::string& preset, float size) {
     Settings settings;
     applyPreset(settings, preset);
-    settings.probes.resolution = 16;  // large ones take most of the time
+    if (preset == "balanced") {
+        settings.probes.resolution = 16;  // large ones take most of the time
+    }
     for (float* metres : {&settings.shadow.constantBias, &settings.traceScreen.thickness,
                           &settings.traceScreen.maxDistance, &settings.diffuse.maxDistance, &settings.probes.blend}) {
         *metres *= size;
