@@ -28,7 +28,7 @@ if(NOT BUILD_SHARED_LIBS)
 endif()
 target_link_libraries(reflet PUBLIC Vulkan::Headers)
 target_link_libraries(reflet PRIVATE $<BUILD_INTERFACE:reflet_options> $<BUILD_INTERFACE:glm::glm>
-    $<BUILD_INTERFACE:fmt::fmt-header-only> $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)
+    $<BUILD_INTERFACE:reflet_fmt> $<BUILD_INTERFACE:nlohmann_json::nlohmann_json>)
 reflet_quick(reflet)
 set(library_presets src/renderer/presets/fast.json src/renderer/presets/balanced.json src/renderer/presets/quality.json)
 reflet_embed(reflet libraryPresets ${library_presets})

@@ -304,8 +304,16 @@ TEST_F(Hostile, ReferencesFromTooFarAwaySeeNothing) {  // Embree ends the progra
 
 // Over 5 s: three processes that measure a scene.
 TEST_F(Hostile, ATruthCacheThatIsBrokenIsMadeAnew) {
-    const Arguments bench{"bench", "builtin:cubes", "--size", "32x18",       "--frames", "1",      "--truth-cache",
-                          "cache", "--preset",      "direct", "--truth-spp", "2",        "--json", "out.json"};
+    const Arguments bench{"bench",         "builtin:cubes",
+                          "--size",        "32x18",
+                          "--first",       "1",
+                          "--warmup",      "1",
+                          "--frames",      "1",
+                          "--truth-cache", "cache",
+                          "--preset",      "direct",
+                          "--truth-spp",   "2",
+                          "--json",        "out.json",
+                          "--no-bandwidth"};
     const Outcome first = run(bench);
     ASSERT_EQ(first.status, 0) << first.err;
     for (const auto& entry : fs::directory_iterator(path("cache"))) {

@@ -22,7 +22,7 @@
 
 namespace reflet::test::effects_host_test {
 
-inline constexpr uvec2 size{48, 30};
+inline constexpr uvec2 size{48, 27};
 inline constexpr float wallDistance = 4.0F;
 inline constexpr uint32_t environmentSide = 64;
 inline constexpr VkFormat colorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;

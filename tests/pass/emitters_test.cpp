@@ -7,7 +7,7 @@
 namespace reflet::test::emitters_test {
 namespace {
 
-constexpr uvec2 size(64, 36);
+constexpr uvec2 size(60, 34);
 constexpr float radiance = 100.0F;
 constexpr float radius = 0.05F;
 constexpr float albedo = 0.5F;

@@ -9,7 +9,7 @@
 namespace reflet::test::furnace_test {
 namespace {
 
-constexpr uvec2 size(64, 36);
+constexpr uvec2 size(60, 34);
 
 Material whiteMetal(float roughness) {
     Material m = lambertMaterial(vec3(1.0F));

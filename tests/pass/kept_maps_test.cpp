@@ -11,7 +11,7 @@ namespace {
 
 class KeptMaps : public DeviceTest {
 protected:
-    static constexpr uvec2 size{64, 36};
+    static constexpr uvec2 size{60, 34};
 
     /// Whether a frame of the view records the pass.
     bool draws(const View& view, std::string_view pass = "shadow_map") {

@@ -10,7 +10,7 @@
 namespace reflet::test::ray_noise_test {
 namespace {
 
-constexpr uvec2 size(64, 36);
+constexpr uvec2 size(60, 34);
 const std::vector<std::string> lobes{"indirect_diffuse", "indirect_specular"};
 
 class NoiseOfRays : public testing::Test {

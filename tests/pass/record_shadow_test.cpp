@@ -11,7 +11,7 @@
 namespace reflet::test::record_shadow_test {
 namespace {
 
-constexpr uvec2 size{64, 36};
+constexpr uvec2 size{60, 34};
 
 class RecordShadow : public DeviceTest {
 protected:

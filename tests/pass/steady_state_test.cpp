@@ -33,9 +33,9 @@ TEST_F(SteadyState, MakesNothing) {
     for (const char* name : {"fast", "balanced", "quality", "hybrid"}) {
         Renderer renderer(device(), scene_, [](const std::string&) {});
         const Settings settings = SteadyState::preset(name);
-        renderFrames(renderer, view_, {48, 30}, settings, 6);  // histories swap, and lend their memory
+        renderFrames(renderer, view_, {48, 27}, settings, 6);  // histories swap, and lend their memory
         const gpu::ObjectCounts made = device().counts();
-        renderFrames(renderer, view_, {48, 30}, settings, 3);
+        renderFrames(renderer, view_, {48, 27}, settings, 3);
         EXPECT_TRUE(made == device().counts()) << name;
     }
 }
@@ -45,9 +45,9 @@ TEST_F(SteadyState, IsRecordedByTheLastFramesPlan) {
     Renderer renderer(device(), scene_, [](const std::string&) {});
     const Settings settings = preset("balanced");
     renderer.orderPasses(gpu::PassOrder::byLevel);  // as on GPUs
-    renderFrames(renderer, view_, {48, 30}, settings, 4);
+    renderFrames(renderer, view_, {48, 27}, settings, 4);
     for (int i = 0; i < 2; ++i) {
-        renderFrames(renderer, view_, {48, 30}, settings, 1);
+        renderFrames(renderer, view_, {48, 27}, settings, 1);
         const gpu::RecordingCounts& counts = renderer.frame().counts();
         EXPECT_EQ(counts.plans, 0U);
         EXPECT_GT(counts.passes, 0U);
@@ -61,7 +61,7 @@ TEST_F(SteadyState, TwoViewsInTurnMakeNothing) {
     const Settings settings = preset("fast");
     gpu::ObjectCounts made;
     for (int i = 0; i < 9; ++i) {
-        renderFrames(one, view_, {48, 30}, settings, 1);
+        renderFrames(one, view_, {48, 27}, settings, 1);
         renderFrames(other, view_, {40, 24}, settings, 1);
         made = i == 6 ? device().counts() : made;
     }
@@ -71,12 +71,12 @@ TEST_F(SteadyState, TwoViewsInTurnMakeNothing) {
 TEST_F(SteadyState, ManySizesLeaveNoMemoryBehind) {
     Renderer renderer(device(), scene_, [](const std::string&) {});
     const Settings settings = preset("fast");
-    renderFrames(renderer, view_, {48, 30}, settings, 5);
+    renderFrames(renderer, view_, {48, 27}, settings, 5);
     const VkDeviceSize before = memory();
     for (uint32_t i = 0; i < 10; ++i) {
         renderFrames(renderer, view_, {33 + 7 * i % 40, 20 + 5 * i % 30}, settings, 1);
     }
-    renderFrames(renderer, view_, {48, 30}, settings, 5);
+    renderFrames(renderer, view_, {48, 27}, settings, 5);
     EXPECT_LE(memory(), before) << "it may be less: the first frames had room for what is done once";
 }
 
