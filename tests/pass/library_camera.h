@@ -284,7 +284,7 @@ private:
             store(probe.position, probes[i].position);
             store(probe.boxCenter, 0.5F * (box.min + box.max));
             store(probe.boxHalfExtents, 0.5F * box.size());
-            probe.blend = 20.0F;  // ProbesSettings
+            probe.blend = ProbesSettings().reach * glm::length(box.size());
         }
         light.probes = probes_.data();
         light.probeCount = static_cast<uint32_t>(probes_.size());
