@@ -271,10 +271,10 @@ TEST(Probe, OneBoxBlendsIntoTheNextWithoutAStep) {
     view.camera.orthographicHeight = 0.4F;  // 8 m wide
     view.probes = {
         {{{-2, 1, 0}, {vec3(-4, -0.1F, -2), vec3(0, 3, 2)}}, {{2, 1, 0}, {vec3(0, -0.1F, -2), vec3(4, 3, 2)}}}};
-    const Pictures p =
-        render(scene, view, size,
-               probeSettings({"probes.bounces=0", "probes.resolution=32", "probes.reach=0.155", "probes.parallax=none"}),
-               {"specular_radiance"});
+    const Pictures p = render(
+        scene, view, size,
+        probeSettings({"probes.bounces=0", "probes.resolution=32", "probes.reach=0.155", "probes.parallax=none"}),
+        {"specular_radiance"});
     EXPECT_NEAR(p.value("specular_radiance", 40, 4, 0), 1.0F, 0.01F) << "beside the first probe";
     EXPECT_NEAR(p.value("specular_radiance", 40, 4, 1), 0.0F, 0.01F);
     EXPECT_NEAR(p.value("specular_radiance", 120, 4, 1), 1.0F, 0.01F) << "beside the second";
