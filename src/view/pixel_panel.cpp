@@ -54,8 +54,7 @@ std::string explanation(const RecordedRay& ray, const Settings& all) {
     } else if (ray.outcome == RayOutcome::hit) {
         why = fmt::format(
             "Miss: after {:.3g} m it meets the surface at {} from behind or from a side that the screen does not show, "
-            "or "
-            "it passed behind something before (trace_screen.reject_backfaces).",
+            "or it passed behind something before (trace_screen.reject_backfaces).",
             ray.distance, at);
     } else if (ray.outcome == RayOutcome::leftScreen) {
         why = fmt::format("Miss: it leaves the screen after {:.3g} m.", ray.distance);

@@ -74,7 +74,7 @@ Gathered gather(gpu::PassList& f, DenoiseStore* own, const LobeLight& light, uin
         .write("nextDirectional", past.directional.next)
         .write("gatheredDirectional", out.directional)
         .params(DenoiseGatherParams{light.from.view, settings, picture.size / static_cast<float>(light.from.scale),
-                                    past.valid ? 1U : 0U})
+                                    picture.pixelAngle * static_cast<float>(light.from.scale), past.valid ? 1U : 0U})
         .dispatch(size);
     return out;
 }

@@ -3,6 +3,7 @@
 #define REFLET_DENOISE_GLSL
 
 #include "effects/denoise/denoise.h"
+#include "effects/lobe/answer_environment.h"
 #include "shaders/directional_light.glsl"
 #include "shaders/half_float.glsl"
 #include "shaders/luminance.glsl"
@@ -12,10 +13,14 @@
 // Up to this perceptual roughness, reflections have little noise and sharp edges that a blur would destroy.
 const float smoothRoughness = 0.1;
 
-// How near the surroundings are that diffuse light comes from, relative to the viewer. Its mean gives the harmonic mean of
-// the rays' distances, which bounds how fast irradiance changes along a surface (Ward, Rubinstein and Clear, A Ray Tracing
-// Solution for Diffuse Interreflection, SIGGRAPH 1988). The same function gives the distance back.
-float nearnessOf(float hitDistance, float viewDistance) { return viewDistance / max(hitDistance, 1e-5 * viewDistance); }
+// How near the surroundings are that diffuse light comes from: 1 / distance in pixels, 0: the environment. Its mean gives the
+// harmonic mean of the rays' distances, which bounds how fast irradiance changes along a surface (Ward, Rubinstein and Clear, A
+// Ray Tracing Solution for Diffuse Interreflection, SIGGRAPH 1988). What is nearer than a few pixels is bumps and crevices of
+// the surface itself: a few such rays must not end the blur.
+float nearnessOf(float hitDistance, float pixelWidth) {
+    const float leastPixels = 8.0;
+    return hitDistance < environmentDistance ? pixelWidth / max(hitDistance, leastPixels * pixelWidth) : 0.0;
+}
 
 // A pixel's surface in the denoiser's history.
 struct KeptSurface {

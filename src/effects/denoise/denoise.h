@@ -48,6 +48,7 @@ struct DenoiseGatherParams {
     ViewParams view;  // of the grid
     DenoiseSettings settings;
     vec2 motionToPixels;  // from motion in uv to pixels of the grid
+    float gridAngle;      // size of a grid pixel at distance 1 [m/m]; orthographic: at any distance [m]
     uint hasPrevious;     // 1: the history holds the last frame
 };
 

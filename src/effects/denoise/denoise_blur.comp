@@ -1,6 +1,6 @@
 // One blur pass over neighbours on the same surface, on a disk rotated per pixel. Its radius depends on the remaining
 // noise, the hit distance and the width of the lobe.
-// In: light with hit distance, surfaces, moments, geometric normals. Out: light, blurred; where the history is short,
+// In: light with hit distance or nearness, surfaces, moments, geometric normals. Out: light, blurred; where the history is short,
 // the blurred light also becomes the next frame's history.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
@@ -41,14 +41,14 @@ const float trustedFrames = 4.0;
 const float trustedFramesReflections = 2.0;
 const float feedbackFrames = 4.0;  // history length from which the history is no longer replaced by blurred light
 
-// Pixels of the grid.
-float radiusAt(float d, float roughness, float stored, float noise) {
+// Pixels of the grid. hit: distance, or nearness (denoise.glsl) of diffuse light.
+float radiusAt(float d, float roughness, float hit, float noise) {
+    if (lobe == 0u) {
+        return min(params.radius, shareOfHarmonicWay / max(hit, 1e-6)) * noise;
+    }
     float away = depthToViewDistance(d, params.view.depthToDistance);
     float pixelWidth = params.gridAngle * (params.view.eye.w > 0.0 ? away : 1.0);
-    float lobeWidth = lobe == 0u ? 1.0 : ggxConeTangent(roughness * roughness);
-    float hitDistance = lobe == 0u ? nearnessOf(stored, away) : stored;  // the inverse function is the same
-    float way = (lobe == 0u ? shareOfHarmonicWay : shareOfWay) * lobeWidth * hitDistance / pixelWidth;
-    return min(params.radius, way) * noise;
+    return min(params.radius, shareOfWay * ggxConeTangent(roughness * roughness) * hit / pixelWidth) * noise;
 }
 
 // Relative standard deviation of the history's mean, estimated over five pixels: that of a single pixel is too small if

@@ -61,7 +61,7 @@ const float framesInMotionRough = 64.0;
 
 // This frame's light of the pixel and its neighbours on the same surface.
 struct Neighbourhood {
-    vec4 light;     // firefly-clamped, plus the excess of neighbouring fireflies; mean hit distance of the neighbourhood, diffuse: nearness
+    vec4 light;     // firefly-clamped, plus the excess of neighbouring fireflies; the neighbourhood's mean hit distance, or nearness
     vec3 mean;      // of the neighbourhood
     vec3 variance;  // per pixel
     vec4 directional;  // of the light
@@ -91,6 +91,7 @@ Neighbourhood gatherNeighbourhood(ivec2 pixel, float d, ScreenPlane plane) {
     float traced = 0.0;
     float away = 0.0;
     float viewDistance = depthToViewDistance(d, params.view.depthToDistance);
+    float pixelWidth = params.gridAngle * (params.view.eye.w > 0.0 ? viewDistance : 1.0);
     s.found = 0.0;
     s.traced = false;
     for (int i = 0; i < 9; ++i) {
@@ -123,7 +124,7 @@ Neighbourhood gatherNeighbourhood(ivec2 pixel, float d, ScreenPlane plane) {
             sum += kept;
             squares += kept * kept;
             s.found += 1.0;
-            away += clamp(lobe == 0u ? nearnessOf(texel.a, viewDistance) : texel.a, 0.0, largestHalf);
+            away += clamp(lobe == 0u ? nearnessOf(texel.a, pixelWidth) : texel.a, 0.0, largestHalf);
         }
     }
     float found = max(s.found, 1.0);

@@ -131,7 +131,8 @@ gpu::Image Probes::captureFace(gpu::PassList& f, const Capture& capture, uint32_
     const ViewImages images = directView(f, faces_, in, captureSettings(capture.settings), lampShadowMap);
     gpu::ComputePass pass = f.compute("capture_probe", "capture_probe.comp");
     bindSurfaces(f, pass, images.g);
-    pass.read("emissive", images.g.emissive)
+    pass.constant("splits", splits_ ? 1U : 0U)
+        .read("emissive", images.g.emissive)
         .read("depth", images.g.depth)
         .read("normal", images.g.normal)
         .read("baseColor", images.g.baseColor)

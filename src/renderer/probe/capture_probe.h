@@ -52,7 +52,7 @@ public:
 private:
     /// Faces as they are drawn, of all probes, in this frame only.
     struct Captured {
-        gpu::Image lit;      ///< RGBA16F: direct light
+        gpu::Image lit;      ///< RGBA16F: direct light without what lamps stand for
         gpu::Image surface;  ///< RGBA32UI, see probe_surface.glsl
     };
     struct Capture {

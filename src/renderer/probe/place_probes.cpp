@@ -301,9 +301,41 @@ std::vector<vec3> chooseSites(const Bodies& bodies, const std::vector<vec3>& sit
     return chosen;
 }
 
+// Places to choose from: middles of cells, coarse ones first, and of the walks' rays.
+std::vector<vec3> findSites(Bodies& bodies, const Aabb& bounds, const Walks& walks, const vec3& eye) {
+    constexpr uint32_t mostCells = 16;
+    constexpr size_t mostBetween = 32;
+    std::vector<vec3> sites;
+    float clear = 0.0F;  // of the finest cells, in the end
+    const auto add = [&](const vec3& middle) {
+        const vec3 p = keepClear(bodies, leaveBodies(bodies, middle, clear), clear);
+        if (!isInside(bodies, castAxisRays(bodies, p)) && !isHidden(bodies, p, eye)) {
+            sites.push_back(p);
+        }
+    };
+    for (uint32_t split = 1; split <= mostCells; split *= 2) {
+        const glm::uvec3 cells = cellsOf(bounds.size(), split);
+        const vec3 cell = bounds.size() / vec3(cells);
+        clear = clearance * std::min({cell.x, cell.y, cell.z});
+        for (uint32_t i = 0; i < cells.x * cells.y * cells.z; ++i) {
+            const glm::uvec3 at(i % cells.x, i / cells.x % cells.y, i / cells.x / cells.y);
+            const vec3 middle = bounds.min + (vec3(at) + 0.5F) * cell;
+            findSolids(bodies, middle, eye);
+            add(middle);
+        }
+    }
+    const size_t step = std::max<size_t>(1, walks.between.size() / mostBetween);
+    for (size_t i = 0; i < walks.between.size(); i += step) {
+        findSolids(bodies, walks.between[i], eye);
+        add(walks.between[i]);
+    }
+    return sites;
+}
+
 }  // namespace
 
 std::vector<Probe> placeProbes(const Scene& scene, uint32_t count, const vec3& eye) {
+    constexpr float nearPart = 0.25F;
     const Aabb bounds = scene.bounds();
     std::vector<Probe> probes;
     if (bounds.empty() || count == 0) {
@@ -314,31 +346,7 @@ std::vector<Probe> placeProbes(const Scene& scene, uint32_t count, const vec3& e
     if (walks.met < leastSurrounded) {
         return probes;
     }
-    std::vector<vec3> sites;
-    const auto add = [&](const vec3& middle, float clear) {
-        const vec3 p = keepClear(bodies, leaveBodies(bodies, middle, clear), clear);
-        if (!isInside(bodies, castAxisRays(bodies, p)) && !isHidden(bodies, p, eye)) {
-            sites.push_back(p);
-        }
-    };
-    constexpr uint32_t mostCells = 16;
-    constexpr size_t mostBetween = 32;
-    float clear = 0.0F;
-    for (uint32_t split = 1; split <= mostCells; split *= 2) {  // coarse ones first
-        const glm::uvec3 cells = cellsOf(bounds.size(), split);
-        const vec3 cell = bounds.size() / vec3(cells);
-        clear = clearance * std::min({cell.x, cell.y, cell.z});
-        for (uint32_t i = 0; i < cells.x * cells.y * cells.z; ++i) {
-            const glm::uvec3 at(i % cells.x, i / cells.x % cells.y, i / cells.x / cells.y);
-            const vec3 middle = bounds.min + (vec3(at) + 0.5F) * cell;
-            findSolids(bodies, middle, eye);
-            add(middle, clear);
-        }
-    }
-    for (size_t i = 0; i < walks.between.size(); i += std::max<size_t>(1, walks.between.size() / mostBetween)) {
-        add(walks.between[i], clear);
-    }
-    constexpr float nearPart = 0.25F;
+    const std::vector<vec3> sites = findSites(bodies, bounds, walks, eye);
     const float nearby = nearPart * glm::length(bounds.size());
     for (const vec3& p : chooseSites(bodies, sites, walks, std::min(count, View::maxProbes), nearby)) {
         probes.push_back({p, boxAround(bodies, p, bounds)});

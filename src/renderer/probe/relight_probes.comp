@@ -56,9 +56,10 @@ void main() {
         vec3 p = loadProbe(probe).position + direction / max(nearness, 1e-9);
         radiance = roundToHalf(vec4(clampToHalf(radiance.rgb + indirectAt(s, p, direction)), 1.0));
     }
-    imageStore(sharp, ivec3(texel, face), radiance);
     if (splits != 0u) {
-        imageStore(matte, ivec3(texel, face), vec4(max(radiance.rgb - s.byLamps, vec3(0.0)), radiance.a));
+        imageStore(matte, ivec3(texel, face), radiance);
+        radiance = roundToHalf(vec4(clampToHalf(radiance.rgb + s.byLamps), radiance.a));
     }
+    imageStore(sharp, ivec3(texel, face), radiance);
     imageStore(atlas, texel + side * ivec2(face % probeFaces, probe), radiance);
 }
