@@ -4,6 +4,7 @@
 #include "base/json.h"
 #include "base/math.h"
 
+#include <cmath>
 #include <string_view>
 #include <vector>
 
@@ -22,7 +23,8 @@ inline vec3 readPosition(const JsonNode& node) {
     return readVec3(node, -largestInView, largestInView, "metres");
 }
 
-/// A unit vector from three numbers that are not all zero.
+/// A unit vector from three numbers that are not all zero. One that is a unit vector already, within the rounding of
+/// floats, keeps its bits, so that a view that is written and read is the same view.
 inline vec3 readDirection(const JsonNode& node) {
     const std::vector<double> values = node.numbers(3, -largestInView, largestInView);
     const glm::dvec3 direction(values[0], values[1], values[2]);
@@ -30,7 +32,8 @@ inline vec3 readDirection(const JsonNode& node) {
     if (!(length > 0.0)) {
         node.complainMustBe("a direction of non-zero length");
     }
-    return direction / length;
+    constexpr double rounding = 2e-7;
+    return std::abs(length - 1.0) < rounding ? direction : direction / length;
 }
 
 /// The value of a required key.

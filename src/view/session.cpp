@@ -10,8 +10,6 @@
 #include "scene/pose.h"
 #include "scene/view_file.h"
 
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
 
@@ -160,15 +158,10 @@ void Session::screenshot(const ViewerState& state, uvec2 size, const std::string
     const Settings settings = renderedSettings(state);
     const Scene& scene = *opened_.scene;
     const uint32_t frames = framesToSettle(historyUse(settings, scene), settings);
-    // A changed view goes through its JSON form, as in the copied command line: directions may differ in the last bit.
-    View view = opened_.firstView;
-    if (!opened_.isDefaultView(state, size)) {
-        applyViewJson(nlohmann::json(viewJson(state.view)), "view", view);
-    }
     Renderer renderer(device_, scene, printWarning);
     bool made = true;
     for (uint32_t i = 0; i < frames; ++i) {
-        renderer.render(view, size, state.source.seed, settings, [&](gpu::Frame& f, const FrameImages& images) {
+        renderer.render(state.view, size, state.source.seed, settings, [&](gpu::Frame& f, const FrameImages& images) {
             made = isMade(findShow(state.show), images);
             if (made && i + 1 == frames) {
                 pictures.request(f, images, false);
@@ -178,7 +171,7 @@ void Session::screenshot(const ViewerState& state, uvec2 size, const std::string
     if (!made) {
         fail("image '{}' is not available with this scene and these settings", state.show);
     }
-    pictures.write(file, renderer.frame(), posed(view, scene), size);
+    pictures.write(file, renderer.frame(), posed(state.view, scene), size);
 }
 
 Picked Session::pick(const ViewerState& state, uvec2 size, uvec2 pixel) {

@@ -165,6 +165,7 @@ class ScaleMatrix : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Forms, ScaleMatrix, testing::ValuesIn(cases),
                          [](const auto& test) { return std::string(test.param.form.name); });
 
+// Over 5 s with hybrid: its pipelines are compiled for the first form.
 TEST_P(ScaleMatrix, IsTheSamePicture) {
     const Case& c = GetParam();
     const FloatImage image = pictureOf(c.form, c.preset);

@@ -363,11 +363,8 @@ TEST_F(ViewFile, IsWrittenSoThatItReproducesTheView) {
         view_ = defaultView(*scene);
         apply(jsonText(viewJson(view)));
         view.hasDefaultSun = false;  // the file names the sun
-        // Directions are normalized again, which may change their last bit.
-        EXPECT_LE(glm::length(view_.sun.direction - view.sun.direction), 1e-6F) << builtin.name;
-        EXPECT_LE(glm::length(view_.camera.up - view.camera.up), 1e-6F) << builtin.name;
-        view_.sun.direction = view.sun.direction;
-        view_.camera.up = view.camera.up;
+        EXPECT_EQ(view_.sun.direction, view.sun.direction) << builtin.name << ": to the last bit";
+        EXPECT_EQ(view_.camera.up, view.camera.up) << builtin.name;
         if (view.camera.node < 0) {
             view_.camera.node = view.camera.node;
             view_.camera.aims = view.camera.aims;
