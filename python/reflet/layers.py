@@ -37,10 +37,22 @@ def positions(frame):
     return world
 
 
+def _to_previous_view(frame):
+    return frame.matrix("previous_world_to_view") @ np.linalg.inv(frame.matrix("world_to_view"))
+
+
+def _background_was_in_front(frame):
+    """Where the direction of a pixel was in front of the camera before, too."""
+    directions = _in_view(frame)
+    if frame.matrix("view_to_clip")[3, 2] == 0:  # orthographic: all look the same way
+        directions = directions * (0, 0, 1)
+    return (directions @ _to_previous_view(frame)[:3, :3].T)[..., 2] < 0
+
+
 def static_motion(frame):
     """The motion that every pixel has if nothing but the camera moves, and the depth in the frame before."""
     view = np.concatenate([_in_view(frame), (frame["depth"] > 0)[..., None].astype(np.float64)], axis=-1)
-    then = view @ (frame.matrix("previous_world_to_view") @ np.linalg.inv(frame.matrix("world_to_view"))).T
+    then = view @ _to_previous_view(frame).T
     clip = then @ frame.matrix("previous_view_to_clip").T
     uv = 0.5 + 0.5 * clip[..., :2] / clip[..., 3:]
     return _pixel_centres(frame["depth"].shape) - uv, np.where(frame["depth"] > 0, -then[..., 2], 0.0)
@@ -79,8 +91,11 @@ def reproject(frame, previous, image=None, tolerance=0.02):
     surface = frame["depth"] > 0
     # A pixel's depth changes along a slanted surface: by as much as between its neighbours.
     slope = np.maximum(*(np.abs(g) for g in np.gradient(depth)))[y, x]
-    same = np.where(surface, (there > 0) & (np.abs(there - expected) <= tolerance * np.abs(expected) + slope),
-                    there <= 0)
+    # What was behind the camera has a motion of 0, which leads to a place in the image that shows something else.
+    same = np.where(surface,
+                    (there > 0) & (expected > 0)
+                    & (np.abs(there - expected) <= tolerance * np.abs(expected) + slope),
+                    (there <= 0) & _background_was_in_front(frame))
     return _sampled(image, uv), inside & same
 
 

@@ -129,6 +129,26 @@ class DatasetTest(unittest.TestCase):
         away = np.linalg.norm(there - reflet.positions(frame), axis=-1)[same & (frame["depth"] > 0)]
         self.assertLess(np.median(away / frame["depth"][same & (frame["depth"] > 0)]), 0.005)
 
+    def test_background_that_was_behind_the_camera_is_masked(self):
+        folder = Path(self.folder) / "turn"
+        folder.mkdir()
+        path = folder / "path.json"
+        # Up to the sky: turned by 45 degrees, then back and around.
+        path.write_text(json.dumps({"keyframes": [
+            {"time": time, "position": [0, 30, 0], "target": [x, 40, z], "easing": "step", "fov_y": 60}
+            for time, x, z in ((0, 0, -10), (1, 7, -7), (2, -7, 7))]}))
+        subprocess.run([reflet.program(), "dataset", "builtin:cubes", "-o", folder / "data", "--size", "48x27",
+                        "--frames", "3", "--cameras", "path", "--path", path, "--fps", "1", "--spp", "1", "--noisy", "1"],
+                       check=True, capture_output=True)
+        data = reflet.open_dataset(folder / "data")
+        shares = []
+        for number in (1, 2):
+            self.assertFalse((data[number]["depth"] > 0).any())
+            shares.append(reflet.reproject(data[number], data[number - 1])[1].mean())
+        self.assertGreater(shares[0], 0.4)
+        self.assertLess(shares[0], 0.7)
+        self.assertEqual(shares[1], 0)
+
     def test_the_header_has_the_camera(self):
         frame = self.data[1]
         header = reflet.read_exr(Path(frame.folder) / frame.record["files"][0]["file"]).attributes
