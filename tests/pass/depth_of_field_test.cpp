@@ -167,7 +167,7 @@ double diskInPixel(const vec2& away, double radius) {
 
 TEST_F(DepthOfField, SmallDisksAreRound) {
     DofRun run(device());
-    for (const float radius : {-2.5F, -1.5F, 1.0F, 1.5F, 2.0F, 2.5F, 3.0F}) {
+    for (const float radius : {-3.3F, -2.5F, -1.5F, 1.0F, 1.5F, 2.0F, 2.5F, 3.0F, 3.2F, 3.4F, 3.6F, 4.5F}) {
         for (const uvec2& lit : {uvec2(80, 60), uvec2(81, 61)}) {
             // At 16 m, disks have three quarters of their radius at infinity; at 2 m, before the plane of focus, all of
             // it.

@@ -25,8 +25,9 @@ layout(constant_id = 2) const uint list = dofComposite;
 layout(rgba16f) uniform readonly image2D reach;
 layout(r32ui) uniform readonly uimage2D tileLists;
 
-const bool hasHighlights = list < dofCopy && ((list - dofComposite) & dofHighlights) != 0u;
-const bool hasSmall = list < dofCopy && ((list - dofComposite) & dofSmall) != 0u;
+// Also right for dofCopy: dofCopy - dofComposite has neither bit. (glslang computes && of constants where it is used first only.)
+const bool hasHighlights = ((list - dofComposite) & dofHighlights) != 0u;
+const bool hasSmall = ((list - dofComposite) & dofSmall) != 0u;
 
 const int tileSide = 2 * int(dofTile);  // in pixels
 const int steps = 2 * int(around) + 1;
@@ -107,7 +108,12 @@ SmallDisks smallDisks(ivec2 first, vec4 coc, float largest) {
         for (int x = -n; x <= n + 1; ++x) {
             ivec2 pixel = clamp(first + ivec2(x, y), ivec2(0), last);
             float c = cocAt(pixel);
-            vec4 light = (1.0 - blurredShare(c, params.fullDisk)) * vec4(sharpAt(pixel).rgb, 1.0);
+            vec3 sharp = sharpAt(pixel).rgb;
+            float apart = 0.0;
+            if (hasHighlights && abs(c) > leastHighlight(params.block)) {
+                apart = highlightShare(sharp, c, imageLoad(lists, pixel / tileSide).b, params.block);
+            }
+            vec4 light = (1.0 - blurredShare(c, params.fullDisk)) * vec4((1.0 - apart) * sharp, 1.0);
             // Disks in front of the plane of focus are turned by half a turn.
             float turned = c < 0.0 ? -1.0 : 1.0;
             vec4 away = shapeLengths(turned * (pixelX - float(x)), turned * (pixelY - float(y)), params.turn, params.blades);

@@ -66,7 +66,7 @@ void main() {
     }
     moments.xyz /= max(moments.w, 1e-9);
     float spread = max(moments.z - dot(moments.xy, moments.xy), 0.0);
-    float edge2 = 0.5 + 6.0 * spread;  // of a disk of the light's own size
+    float edge2 = max(6.0 * spread - 1.0, 1.0);  // of a disk of the light's own size; antialiasing has spread it
     float radius2 = max(c * c - edge2 / 12.0, 0.25);
     vec3 light = min(sum * params.disk / (radius2 + edge2 / 12.0), 65504.0);
     vec2 corner = vec2(side * inTile);

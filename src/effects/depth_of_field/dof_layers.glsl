@@ -67,9 +67,8 @@ float brightness(vec3 light) { return 1e-3 + max(light.r, max(light.g, light.b))
 
 // Highlights are brighter than the tile's darkness by the first factor, and keep as much as the second leaves.
 const vec2 highlight = vec2(16.0, 2.0);
-// Radius [pixels of the picture]: disks of neighbouring blocks that are smaller would not join; at least that from which nothing is
-// drawn at full resolution (blurredShare). block: side of a block.
-float leastHighlight(uint block) { return max(0.75 * float(block), 3.5); }
+// Radius [pixels of the picture]: disks of neighbouring blocks that are smaller would not join. block: side of a block.
+float leastHighlight(uint block) { return 0.75 * float(block); }
 
 // Share of a pixel's light that is drawn apart, at full resolution. darkness: harmonic mean of the tile's brightness; 0: none is.
 float highlightShare(vec3 light, float coc, float darkness, uint block) {
