@@ -22,6 +22,7 @@ constexpr uint32_t projectionThreads = 64;  // cube_irradiance.comp
 // Narrow lobes need fewer samples, and their levels have more texels.
 constexpr uint32_t fewestSamples = 64;
 constexpr uint32_t mostSamples = 512;
+constexpr uint32_t fewSamples = 16;  // CubeLobeSamples
 
 // Down to 4x4 texels per face for the widest lobe.
 uint32_t lobeLevels(uint32_t side) {
@@ -54,17 +55,17 @@ void makeCubeMips(gpu::PassList& f, const CubeMap& map, const CubeFaces& faces) 
     }
 }
 
-void filterCubeLobes(gpu::PassList& f, const CubeMap& map, const CubeFaces& faces) {
+void filterCubeLobes(gpu::PassList& f, const CubeMap& map, const CubeFaces& faces, CubeLobeSamples samples) {
     const VkSampler linear = f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR, VK_SAMPLER_MIPMAP_MODE_LINEAR});
     const uint32_t levels = map.lobes.info().mips;
     for (uint32_t level = 0; level < levels; ++level) {
         const gpu::Image lobes = map.lobes.mip(level);
         const float roughness = static_cast<float>(level) / static_cast<float>(std::max(levels - 1, 1U));
-        const uint32_t samples = std::min(fewestSamples << level >> 1U, mostSamples);
+        const uint32_t most = samples == CubeLobeSamples::few ? fewSamples : mostSamples;
         f.compute("cube_lobes", "cube_lobes.comp")
             .read("sharp", map.sharp.image(), linear)
             .write("lobes", lobes)
-            .params(CubeLobesParams{roughness, faces.first, samples})
+            .params(CubeLobesParams{roughness, faces.first, std::min(fewestSamples << level >> 1U, most)})
             .dispatch(lobes.size.x, lobes.size.y, faces.count);
     }
 }
@@ -89,10 +90,10 @@ void projectCube(gpu::PassList& f, const CubeProjection& in) {
         .dispatch(projectionThreads * in.count);
 }
 
-void filterCubeMap(gpu::PassList& f, const CubeMap& map, uint32_t firstCube, uint32_t count) {
+void filterCubeMap(gpu::PassList& f, const CubeMap& map, uint32_t firstCube, uint32_t count, CubeLobeSamples samples) {
     const CubeFaces faces{6 * firstCube, 6 * count};
     makeCubeMips(f, map, faces);
-    filterCubeLobes(f, map, faces);
+    filterCubeLobes(f, map, faces, samples);
     projectCubeIrradiance(f, map, firstCube, count);
 }
 

@@ -60,10 +60,15 @@ struct CubeFaces {
 /// Makes the mips of `sharp`, for these faces only.
 void makeCubeMips(gpu::PassList& f, const CubeMap& map, const CubeFaces& faces);
 
+/// Samples per texel of a lobe. `few` is for maps that only other maps are lit by: with mips that fit the samples,
+/// lobes are smooth with few as well, but wider.
+enum class CubeLobeSamples : uint8_t { all, few };
+
 /// Makes all levels of `lobes`, for these faces only. Reads the mips of `sharp` of all faces of their cubes. Costs 1
 /// sample per texel on level 0, 64 on level 1, doubling with each level up to 512: 3 million samples for a cube of 128
-/// pixels a side, half of them for level 1.
-void filterCubeLobes(gpu::PassList& f, const CubeMap& map, const CubeFaces& faces);
+/// pixels a side, half of them for level 1. With few: 16 on each level.
+void filterCubeLobes(gpu::PassList& f, const CubeMap& map, const CubeFaces& faces,
+                     CubeLobeSamples samples = CubeLobeSamples::all);
 
 /// Makes the irradiance coefficients of `count` cubes, from the mips of `sharp`.
 void projectCubeIrradiance(gpu::PassList& f, const CubeMap& map, uint32_t firstCube, uint32_t count);
@@ -79,7 +84,8 @@ struct CubeProjection {
 void projectCube(gpu::PassList& f, const CubeProjection& in);
 
 /// All three, for whole cubes.
-void filterCubeMap(gpu::PassList& f, const CubeMap& map, uint32_t firstCube, uint32_t count);
+void filterCubeMap(gpu::PassList& f, const CubeMap& map, uint32_t firstCube, uint32_t count,
+                   CubeLobeSamples samples = CubeLobeSamples::all);
 
 }  // namespace reflet
 #endif

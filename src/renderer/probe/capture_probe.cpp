@@ -168,9 +168,9 @@ void Probes::relight(gpu::PassList& f, const Capture& capture, const CubeFaces& 
         .dispatch(size.x, size.y, faces.count);
 }
 
-void Probes::filter(gpu::PassList& f, uint32_t firstCube, uint32_t count) {
+void Probes::filter(gpu::PassList& f, uint32_t firstCube, uint32_t count, CubeLobeSamples samples) {
     const auto scope = f.scope("probe");
-    filterCubeMap(f, map_, firstCube, count);
+    filterCubeMap(f, map_, firstCube, count, samples);
     if (splits_) {
         makeCubeMips(f, matte_, {6 * firstCube, 6 * count});
         projectCubeIrradiance(f, matte_, firstCube, count);
@@ -186,7 +186,8 @@ void Probes::captureAll(gpu::PassList& f, const ViewInputs& in, const Settings& 
     }
     for (uint32_t bounce = 0; bounce <= settings.probes.bounces; ++bounce) {
         relight(f, capture, faces, bounce > 0);
-        filter(f, 0, block_.count);
+        // Each bounce's lobes are seen by the next bounce alone, the last one's by the camera.
+        filter(f, 0, block_.count, bounce < settings.probes.bounces ? CubeLobeSamples::few : CubeLobeSamples::all);
     }
 }
 
@@ -198,7 +199,7 @@ void Probes::captureNextFace(gpu::PassList& f, const ViewInputs& in, const Setti
     relight(f, capture, {face, 1}, settings.probes.bounces > 0 && facesCaptured_ >= faces);
     ++facesCaptured_;
     if (face % probeFaces == probeFaces - 1) {
-        filter(f, face / probeFaces, 1);
+        filter(f, face / probeFaces, 1, CubeLobeSamples::all);
     }
 }
 

@@ -62,7 +62,7 @@ private:
     };
     void makeMaps(gpu::Context& context, uint32_t resolution);
     /// Prefilters the captured faces.
-    void filter(gpu::PassList& f, uint32_t firstCube, uint32_t count);
+    void filter(gpu::PassList& f, uint32_t firstCube, uint32_t count, CubeLobeSamples samples);
     [[nodiscard]] const CubeMap& forDiffuse() const { return splits_ ? matte_ : map_; }
     void captureAll(gpu::PassList& f, const ViewInputs& in, const Settings& settings);
     void captureNextFace(gpu::PassList& f, const ViewInputs& in, const Settings& settings);
