@@ -4,6 +4,7 @@
 #include "base/visible_text.h"
 
 #include <algorithm>
+#include <charconv>
 #include <optional>
 
 namespace reflet {
@@ -51,7 +52,12 @@ std::string formatMessage(fmt::string_view format, fmt::format_args args) {
             i += 2;
         } else if (text[i] == '{') {
             const Field field = fieldAt(text, i);
-            const int index = field.id.empty() ? next++ : std::stoi(std::string(field.id));
+            int index = next;
+            if (field.id.empty()) {
+                ++next;
+            } else {
+                std::from_chars(field.id.data(), field.id.data() + field.id.size(), index);
+            }
             const std::optional<std::string_view> value = textOf(args.get(index));
             const bool quoted = i > 0 && text[i - 1] == '\'' && text.substr(field.end, 1) == "'";
             if (value && field.spec.empty()) {

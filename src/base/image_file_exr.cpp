@@ -26,6 +26,7 @@
 #include <map>
 #include <new>
 #include <string_view>
+#include <system_error>
 #include <thread>
 
 namespace reflet {
@@ -264,6 +265,11 @@ void writeEncoded(const std::filesystem::path& path, std::span<const ImageLayer>
         throw;  // a failed check
     } catch (const std::bad_alloc&) {
         throw;
+    } catch (const std::system_error& error) {
+        fail("{}: cannot be encoded as EXR: {}{}", path.string(), error.what(),
+             error.code() == std::errc::resource_unavailable_try_again
+                 ? ": no thread could be started; raise the limit of processes (ulimit -u), or end others"
+                 : "");
     } catch (const std::exception& error) {
         fail("{}: cannot be encoded as EXR: {}", path.string(), exrReason(error));
     }

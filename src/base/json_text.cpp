@@ -71,6 +71,60 @@ std::string withoutHidden(std::string text) {
     return result;
 }
 
+/// Collects what jsonTextsIn returns, from the parser's events.
+class TextsIn final : public nlohmann::json_sax<nlohmann::json> {
+public:
+    TextsIn(std::span<const std::string_view> arrays, std::string_view key) : arrays_(arrays), key_(key) {}
+
+    bool null() override { return true; }
+    bool boolean(bool /*value*/) override { return true; }
+    bool number_integer(number_integer_t /*value*/) override { return true; }
+    bool number_unsigned(number_unsigned_t /*value*/) override { return true; }
+    bool number_float(number_float_t /*value*/, const string_t& /*text*/) override { return true; }
+    bool binary(binary_t& /*value*/) override { return true; }
+
+    bool string(string_t& value) override {
+        if (inArray_ && atKey_ && isArray_ == std::vector<bool>{false, true, false}) {
+            found.push_back(std::move(value));
+        }
+        return true;
+    }
+    bool key(string_t& name) override {
+        if (isArray_.size() == 1) {
+            inArray_ = std::ranges::find(arrays_, name) != arrays_.end();
+        }
+        atKey_ = name == key_;
+        return true;
+    }
+    bool start_object(std::size_t /*size*/) override { return open(false); }
+    bool end_object() override { return close(); }
+    bool start_array(std::size_t /*size*/) override { return open(true); }
+    bool end_array() override { return close(); }
+    bool parse_error(std::size_t /*position*/, const std::string& /*token*/,
+                     const nlohmann::detail::exception& /*error*/) override {
+        return false;
+    }
+
+    std::vector<std::string> found;
+
+private:
+    bool open(bool array) {
+        isArray_.push_back(array);
+        return true;
+    }
+    bool close() {
+        isArray_.pop_back();
+        atKey_ = false;
+        return true;
+    }
+
+    std::span<const std::string_view> arrays_;
+    std::string_view key_;
+    std::vector<bool> isArray_;  ///< per level that is open
+    bool inArray_ = false;
+    bool atKey_ = false;
+};
+
 }  // namespace
 
 uint64_t jsonValues(std::string_view text) {
@@ -104,6 +158,16 @@ nlohmann::json parseJsonIfValid(std::string_view text) {
 nlohmann::ordered_json parseOrderedJson(std::string_view text) {
     refuseExcess(text, {});
     return nlohmann::ordered_json::parse(text);
+}
+
+std::vector<std::string> jsonTextsIn(std::string_view text, std::span<const std::string_view> arrays,
+                                     std::string_view key, const JsonLimits& limits) {
+    refuseExcess(text, limits);
+    TextsIn texts(arrays, key);
+    if (!nlohmann::json::sax_parse(text, &texts)) {
+        fail("the text is not JSON");
+    }
+    return std::move(texts.found);
 }
 
 std::string jsonText(const nlohmann::json& json, int indent) {

@@ -5,8 +5,10 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace reflet {
 
@@ -30,6 +32,12 @@ nlohmann::json parseJson(std::string_view text, const JsonLimits& limits = {});
 nlohmann::json parseJsonIfValid(std::string_view text);
 /// As parseJson; objects keep the order of their keys.
 nlohmann::ordered_json parseOrderedJson(std::string_view text);
+
+/// The texts named `key` in the objects that these arrays of a document hold: the values of {"ARRAY": [{"KEY":
+/// "..."}]}, in the text's order. Keeps nothing else of the document. Throws Error if the text is not JSON or exceeds a
+/// limit.
+std::vector<std::string> jsonTextsIn(std::string_view text, std::span<const std::string_view> arrays,
+                                     std::string_view key, const JsonLimits& limits = {});
 
 /// With `indent` spaces per level; -1: all in one line. Bytes that are not UTF-8 become U+FFFD.
 std::string jsonText(const nlohmann::json& json, int indent = -1);

@@ -1,10 +1,9 @@
 // Suggests the name that a mistyped one was meant to be: optimal string alignment distance.
 #include "base/text.h"
-
+#include "base/ascii.h"
 #include "base/error.h"
 
 #include <algorithm>
-#include <cctype>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -18,7 +17,7 @@ std::string lettersOf(std::string_view text) {
     std::string result;
     for (const char letter : text) {
         if (letter != '_') {
-            result += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+            result += asciiLower(letter);
         }
     }
     return result;
@@ -81,10 +80,10 @@ std::string suggestion(std::string_view name, std::span<const std::string> names
 std::string snakeCase(std::string_view camelCase) {
     std::string result;
     for (const char letter : camelCase) {
-        if (std::isupper(static_cast<unsigned char>(letter)) != 0) {
+        if (isAsciiUpper(letter)) {
             result += '_';
         }
-        result += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+        result += asciiLower(letter);
     }
     return result;
 }

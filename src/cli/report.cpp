@@ -1,5 +1,7 @@
 // `reflet report`: writes a page that compares the error and time of variants.
 #include "base/error.h"
+
+#include "base/ascii.h"
 #include "base/file.h"
 #include "base/image_file.h"
 #include "base/progress.h"
@@ -20,7 +22,6 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
@@ -63,7 +64,7 @@ std::string describe(const std::string& source, const Scene& scene) {
         return facts;
     }
     std::string what(found->description);
-    what[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(what[0])));
+    what[0] = asciiUpper(what[0]);
     return fmt::format("{}. {}", what, facts);
 }
 

@@ -1,12 +1,11 @@
 // Reads images that are named on the command line.
 #include "compare/picture_input.h"
-
+#include "base/ascii.h"
 #include "base/error.h"
 #include "base/message.h"
 #include "base/text.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <numeric>
 #include <optional>
@@ -20,7 +19,7 @@ namespace fs = std::filesystem;
 
 std::string lowerExtension(const std::string& file) {
     std::string extension = fs::path(file).extension().string();
-    std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    std::ranges::transform(extension, extension.begin(), asciiLower);
     return extension;
 }
 

@@ -6,11 +6,43 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
+#include <future>
 #include <thread>
+#include <vector>
 
 namespace reflet::gpu {
 
 namespace {
+
+/// Software drivers wait for ever for threads of their own that could not be started.
+void requireThreads(VkPhysicalDevice physical) {
+    VkPhysicalDeviceProperties properties{};
+    vkGetPhysicalDeviceProperties(physical, &properties);
+    if (properties.deviceType != VK_PHYSICAL_DEVICE_TYPE_CPU) {
+        return;
+    }
+    const unsigned wanted = std::clamp(std::thread::hardware_concurrency(), 1U, 32U) + 1;
+    std::promise<void> end;
+    const std::shared_future<void> ended = end.get_future().share();
+    std::vector<std::jthread> threads;
+    threads.reserve(wanted);
+    bool started = true;
+    try {
+        for (unsigned i = 0; i < wanted; ++i) {
+            threads.emplace_back([ended] { ended.wait(); });
+        }
+    } catch (const std::exception&) {
+        started = false;
+    }
+    end.set_value();
+    if (!started) {
+        fail(
+            "opening the device: only {} of {} threads could be started: raise the limit of processes (ulimit -u), or "
+            "end others",
+            threads.size(), wanted);
+    }
+}
 
 constexpr const char* validationLayer = "VK_LAYER_KHRONOS_validation";
 
@@ -114,6 +146,7 @@ void DeviceHandles::createDevice(bool fillsWindows) {
     info.ppEnabledExtensionNames = extensions.data();
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queueInfo;
+    requireThreads(physical_);
     VkDevice made = VK_NULL_HANDLE;
     vkCheck(vkCreateDevice(physical_, &info, nullptr, &made), "opening the device");
     device_ = made;

@@ -1,12 +1,11 @@
 // Lists Vulkan devices, checks them against the minimum requirements and selects one.
 #include "device/physical_device.h"
-
+#include "base/ascii.h"
 #include "base/error.h"
 #include "base/visible_text.h"
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cstring>
 #include <span>
@@ -23,7 +22,7 @@ std::string versionText(uint32_t version) {
 }
 
 std::string lower(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+    std::ranges::transform(text, text.begin(), asciiLower);
     return text;
 }
 

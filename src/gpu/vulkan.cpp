@@ -21,6 +21,9 @@ const char* advice(VkResult result) {
             return "; the driver has reset it: open it again, and update the driver if this repeats";
         case VK_ERROR_SURFACE_LOST_KHR:
             return "; open the window again";
+        case VK_ERROR_UNKNOWN:
+            return ", most often because no thread could be started: raise the limit of processes (ulimit -u), or end "
+                   "others";
         default:
             return "";
     }
@@ -65,6 +68,8 @@ std::string resultName(VkResult result) {
             return "a layer is not installed";
         case VK_ERROR_INCOMPATIBLE_DRIVER:
             return "no driver fits";
+        case VK_ERROR_UNKNOWN:
+            return "the driver does not say why";
         default:
             return fmt::format("VkResult {}", static_cast<int>(result));
     }

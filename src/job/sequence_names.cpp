@@ -1,10 +1,9 @@
 // File names of a sequence.
 #include "job/sequence_names.h"
-
+#include "base/ascii.h"
 #include "base/error.h"
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <system_error>
 
@@ -40,7 +39,7 @@ bool FrameNames::matches(std::string_view name) const {
     }
     name.remove_prefix(before_.size());
     name.remove_suffix(after_.size());
-    return std::ranges::all_of(name, [](unsigned char c) { return std::isdigit(c) != 0; });
+    return std::ranges::all_of(name, isAsciiDigit);
 }
 
 std::vector<fs::path> FrameNames::existing() const {

@@ -1,10 +1,9 @@
 // Environment images: lookup by direction, and reading from files.
 #include "scene/environment.h"
-
+#include "base/ascii.h"
 #include "base/error.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -19,8 +18,7 @@ uint32_t texelOf(float coordinate, uint32_t count) {
 
 std::string lowerExtension(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
-    std::ranges::transform(extension, extension.begin(),
-                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    std::ranges::transform(extension, extension.begin(), asciiLower);
     return extension;
 }
 

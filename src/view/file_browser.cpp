@@ -1,12 +1,12 @@
 // Draws the list of files with Dear ImGui.
 #include "view/file_browser.h"
+#include "base/ascii.h"
 
 #include <imgui.h>
 #include <imgui_stdlib.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <tuple>
 
 namespace reflet {
@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string inLowerCase(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+    std::ranges::transform(text, text.begin(), asciiLower);
     return text;
 }
 

@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <charconv>
 #include <filesystem>
 #include <optional>
 
@@ -101,7 +102,8 @@ CameraOptions placingOf(const View& view, const View& before, const CameraOption
     placing.zoom.reset();
     placing.fov.reset();
     if (source.fov || before.camera.fovY != view.camera.fovY) {
-        placing.fov = std::stod(fmt::format("{:.{}g}", double(view.camera.fovY) / radiansPerDegree, digits));
+        const std::string degrees = fmt::format("{:.{}g}", double(view.camera.fovY) / radiansPerDegree, digits);
+        std::from_chars(degrees.data(), degrees.data() + degrees.size(), placing.fov.emplace());
     }
     if (before.sun.direction != view.sun.direction) {
         const Direction sun = directionOf(-glm::dvec3(view.sun.direction));

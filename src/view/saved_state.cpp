@@ -1,6 +1,6 @@
 // Saves and restores the viewer's state.
 #include "view/saved_state.h"
-
+#include "base/ascii.h"
 #include "base/error.h"
 #include "base/home.h"
 #include "base/json.h"
@@ -14,7 +14,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdlib>
 #include <functional>
 #include <mutex>
@@ -190,7 +189,7 @@ fs::path stateFile(const std::string& scene) {
     const std::string key = sceneKey(scene);
     std::string name = scene.starts_with("builtin:") ? "builtin-" + key.substr(8) : fs::path(key).stem().string();
     std::ranges::replace_if(
-        name, [](unsigned char c) { return std::isalnum(c) == 0 && c != '-' && c != '_'; }, '_');
+        name, [](char c) { return !isAsciiAlphanumeric(c) && c != '-' && c != '_'; }, '_');
     // Files of the same name can be in different folders.
     const std::string file = fmt::format("{}-{}.json", name.substr(0, longestName), fingerprintOf(key));
     try {

@@ -1,8 +1,8 @@
 // Search in the settings panel.
 #include "view/setting_search.h"
+#include "base/ascii.h"
 
 #include <algorithm>
-#include <cctype>
 #include <string>
 #include <utility>
 #include <vector>
@@ -40,12 +40,12 @@ constexpr std::pair<std::string_view, std::string_view> synonyms[] = {
 
 std::string lower(std::string_view text) {
     std::string small(text);
-    std::ranges::transform(small, small.begin(), [](unsigned char c) { return std::tolower(c); });
+    std::ranges::transform(small, small.begin(), asciiLower);
     return small;
 }
 
 bool isLetter(char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0;
+    return isAsciiAlphanumeric(c);
 }
 
 // "gi" begins a word of "one GI ray", and none of "original".

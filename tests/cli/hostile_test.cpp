@@ -6,6 +6,7 @@
 
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -213,6 +214,23 @@ TEST_F(Hostile, AFileSizeLimitIsAFailureAndLeavesNothing) {
 TEST_F(Hostile, ALimitOfCpuTimeIsAFailureAndLeavesNothing) {
     const Outcome limited = shell("ulimit -t 2;", "reference builtin:cubes --spp 100000 -o a.png");
     EXPECT_TRUE(refused(limited, failed, {"ulimit -t"}));
+    EXPECT_TRUE(files().empty());
+}
+
+TEST_F(Hostile, ALimitOfProcessesIsAFailureThatSaysHowToRaiseIt) {  // a software driver waited for ever
+    if (::geteuid() != 0 || !isInstalled("setpriv") || !isInstalled("bash")) {
+        GTEST_SKIP() << "needs root and setpriv, because the limit does not bind root, and others may have processes";
+    }
+    fs::permissions(path(""), fs::perms::all);
+    const auto limited = [&](const std::string& rest) {
+        return runOther("setpriv", {"--reuid=65534", "--regid=65534", "--clear-groups", "bash", "-c",
+                                    "ulimit -u 1; exec \"$0\" " + rest, REFLET_PROGRAM});
+    };
+    if (limited("--version").status != 0) {
+        GTEST_SKIP() << "the program cannot be run by another user, or with sanitizers";
+    }
+    EXPECT_TRUE(refused(limited("reference builtin:cubes --size 8x8 --spp 1 -o a.exr"), failed, {"ulimit -u"}));
+    EXPECT_TRUE(refused(limited("render builtin:cubes --preset direct --size 8x8 -o a.png"), failed, {"ulimit -u"}));
     EXPECT_TRUE(files().empty());
 }
 

@@ -75,5 +75,19 @@ TEST(JsonNode, OnAnyJsonTheTypedReadersReturnOrThrow) {
     }
 }
 
+TEST(JsonTexts, AreThoseUnderTheKeyInElementsOfTheArrays) {
+    constexpr std::array<std::string_view, 2> arrays{"buffers", "images"};
+    const auto textsIn = [&](const char* text) { return jsonTextsIn(text, arrays, "uri"); };
+    const std::vector<std::string> both{"a", "b"};
+    EXPECT_EQ(textsIn(R"({"images":[{"n":{"uri":"no"},"uri":"a"},["no"],3,{"uri":4},{"uri":["no"]},{"uri":"b"}]})"),
+              both);
+    EXPECT_EQ(textsIn(R"({"buffers":[{"uri":"a"}],"meshes":[{"uri":"no"}],"images":[{"name":"no","uri":"b"}]})"), both);
+    for (const char* none : {"[]", "3", "\"uri\"", R"({"uri":"a"})", R"({"images":{"x":{"uri":"a"}}})",
+                             R"([{"images":[{"uri":"a"}]}])", R"({"x":{"images":[{"uri":"a"}]}})"}) {
+        EXPECT_TRUE(textsIn(none).empty()) << none;
+    }
+    EXPECT_THROW((void)textsIn(R"({"images":[{"uri":"a"},)"), Error);
+}
+
 }  // namespace
 }  // namespace reflet::json_test

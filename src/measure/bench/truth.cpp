@@ -1,6 +1,6 @@
 // Makes ground truth images and caches them in a folder.
 #include "measure/bench/truth.h"
-
+#include "base/ascii.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/home.h"
@@ -166,7 +166,7 @@ void makeTruthFolder(const fs::path& folder) {
 std::string plainName(const std::string& name) {
     std::string plain;
     for (const char c : name) {
-        plain += std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '-';
+        plain += isAsciiAlphanumeric(c) ? c : '-';
     }
     return plain;
 }

@@ -20,7 +20,7 @@ namespace {
 
 constexpr uint64_t maxFileBytes = 1ULL << 32U;  // a .glb stores its length in 32 bits
 constexpr uint64_t maxJsonBytes = 1ULL << 29U;
-constexpr uint64_t jsonBytesPerValue = 256;  // in the four forms that the document is in until it is a scene
+constexpr uint64_t jsonBytesPerValue = 256;  // as JSON and as what is read from it
 constexpr size_t headerBytes = 12;
 constexpr size_t chunkHeaderBytes = 8;
 constexpr uint32_t magicGltf = 0x46546C67;
@@ -87,7 +87,12 @@ Bytes nextChunk(Bytes file, size_t& at, uint32_t& type, GltfReport& report) {
     return chunk;
 }
 
-GltfContainer splitGlb(Bytes file, GltfReport& report) {
+struct Parts {
+    Bytes json;
+    std::optional<Bytes> bin;
+};
+
+Parts splitGlb(Bytes file, GltfReport& report) {
     if (file.size() < headerBytes) {
         report.fail("GLB header", "is truncated after {} bytes", file.size());
     }
@@ -100,7 +105,7 @@ GltfContainer splitGlb(Bytes file, GltfReport& report) {
             report.fail("GLB header", "says the file has {} bytes, but it has {}", length, file.size());
         }
     });
-    GltfContainer result;
+    Parts result;
     size_t at = headerBytes;
     uint32_t type = 0;
     const Bytes json = nextChunk(file, at, type, report);
@@ -111,12 +116,26 @@ GltfContainer splitGlb(Bytes file, GltfReport& report) {
         while (at < file.size() && !result.bin) {
             const Bytes chunk = nextChunk(file, at, type, report);
             if (type == chunkBin) {
-                result.bin.emplace(chunk.begin(), chunk.end());
+                result.bin = chunk;
             }
         }
     });
-    result.document = parseJson(withoutZeros(json, report), report);
+    result.json = withoutZeros(json, report);
     return result;
+}
+
+/// file: not empty.
+Parts partsOf(Bytes file, GltfReport& report) {
+    const bool isGlb = file.size() >= 4 && readU32(file, 0) == magicGltf;
+    return isGlb ? splitGlb(file, report) : Parts{.json = file, .bin = std::nullopt};
+}
+
+std::vector<uint8_t> readNotEmpty(const std::filesystem::path& path, GltfReport& report) {
+    std::vector<uint8_t> file = readFileBytes(path, maxFileBytes, "", report);
+    if (file.empty()) {
+        report.fail("", "is empty");
+    }
+    return file;
 }
 
 /// Opens a file below a folder, folder by folder, so that none of them can have become a symbolic link since the path
@@ -162,14 +181,22 @@ std::vector<uint8_t> readFileBytes(const std::filesystem::path& path, uint64_t m
 }
 
 GltfContainer readGltfContainer(const std::filesystem::path& path, GltfReport& report) {
-    const std::vector<uint8_t> file = readFileBytes(path, maxFileBytes, "", report);
-    if (file.empty()) {
-        report.fail("", "is empty");
+    const std::vector<uint8_t> file = readNotEmpty(path, report);
+    const Parts parts = partsOf(file, report);
+    GltfContainer result;
+    if (parts.bin) {
+        result.bin.emplace(parts.bin->begin(), parts.bin->end());
     }
-    if (file.size() >= 4 && readU32(file, 0) == magicGltf) {
-        return splitGlb(file, report);
-    }
-    return {.document = parseJson(file, report), .bin = std::nullopt};
+    result.document = parseJson(parts.json, report);
+    return result;
+}
+
+std::vector<std::string> readGltfUris(const std::filesystem::path& path, GltfReport& report) {
+    const std::vector<uint8_t> file = readNotEmpty(path, report);
+    const Bytes json = partsOf(file, report).json;
+    constexpr std::array<std::string_view, 2> arrays{"buffers", "images"};
+    return jsonTextsIn({reinterpret_cast<const char*>(json.data()), json.size()}, arrays, "uri",
+                       {.bytes = maxJsonBytes, .values = UINT64_MAX});
 }
 
 }  // namespace reflet

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace reflet {
@@ -18,6 +19,9 @@ struct GltfContainer {
 
 /// A .glb is recognized by its first bytes, not by its name. Throws Error.
 GltfContainer readGltfContainer(const std::filesystem::path& path, GltfReport& report);
+
+/// The URIs of its buffers and images, without keeping anything else of the document. Throws Error.
+std::vector<std::string> readGltfUris(const std::filesystem::path& path, GltfReport& report);
 
 /// The first `maxBytes` bytes of a regular file, or all of it if shorter. `within`: if not empty, a folder that `path`
 /// lies in, both without symbolic links; none that appears meanwhile is followed. Throws Error that names `part`.

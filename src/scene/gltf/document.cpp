@@ -1,9 +1,8 @@
-// Reads a glTF file: container, schema check, parsing by tinygltf, buffers, cross-checks.
-// tinygltf gets a document without buffers and images, because its own loading of them falls back to the working
-// folder, decodes '+' in a file name as a space, decodes every image and has no limits.
+// Reads a glTF file: container, schema check, parsing by tinygltf, buffers, cross-checks. tinygltf gets no buffers and
+// images, because its own loading of them falls back to the working folder, decodes '+' in a file name as a space,
+// decodes every image and has no limits.
 #include "scene/gltf/document.h"
 
-#include "base/json_text.h"
 #include "scene/gltf/container.h"
 #include "scene/gltf/meshopt.h"
 #include "scene/gltf/schema.h"
@@ -12,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <new>
 #include <set>
 #include <string_view>
 
@@ -92,86 +90,6 @@ void checkExtensions(const json& document, GltfReport& report) {
     }
 }
 
-/// Removes the primitives' indices, because tinygltf rejects the accessors without a buffer view that Draco uses there.
-/// restoreIndices puts them back.
-void removeIndices(json& document) {
-    const auto meshes = document.find("meshes");
-    if (meshes == document.end()) {
-        return;
-    }
-    for (auto& mesh : *meshes) {
-        for (auto& primitive : mesh["primitives"]) {
-            primitive.erase("indices");
-        }
-    }
-}
-
-void restoreIndices(tinygltf::Model& model, const json& document, const GltfReport& report) {
-    const json& meshes = arrayOf(document, "meshes");
-    for (size_t m = 0; m < meshes.size(); ++m) {
-        const auto& primitives = meshes[m]["primitives"];
-        if (model.meshes.size() <= m || model.meshes[m].primitives.size() != primitives.size()) {
-            report.fail(fmt::format("meshes[{}]", m), "cannot be parsed by tinygltf");
-        }
-        for (size_t p = 0; p < primitives.size(); ++p) {
-            model.meshes[m].primitives[p].indices = primitives[p].value("indices", -1);
-        }
-    }
-}
-
-void noteMaterials(const json& primitive, std::set<uint64_t>& used) {
-    if (const auto material = primitive.find("material"); material != primitive.end()) {
-        used.insert(material->get<uint64_t>());
-    }
-    const auto pointer = json::json_pointer("/extensions/KHR_materials_variants/mappings");
-    if (primitive.contains(pointer)) {
-        for (const json& mapping : primitive.at(pointer)) {
-            used.insert(mapping.at("material").get<uint64_t>());
-        }
-    }
-}
-
-/// The document's materials; those that no mesh uses are empty objects: a file may have many of them.
-json usedMaterials(const json& document) {
-    std::set<uint64_t> used;
-    for (const json& mesh : arrayOf(document, "meshes")) {
-        for (const json& primitive : mesh.at("primitives")) {
-            noteMaterials(primitive, used);
-        }
-    }
-    json materials = json::array();
-    for (const json& material : arrayOf(document, "materials")) {
-        materials.push_back(used.contains(materials.size()) ? material : json::object());
-    }
-    return materials;
-}
-
-tinygltf::Model parseStructure(const json& document, const GltfReport& report) {
-    json structure = json::object();
-    for (const auto& [name, value] : document.items()) {
-        if (name == "materials") {
-            structure[name] = usedMaterials(document);
-        } else if (name != "buffers" && name != "images") {
-            structure[name] = value;
-        }
-    }
-    removeIndices(structure);
-    const std::string text = jsonText(structure);
-    structure = nullptr;
-    tinygltf::Model model;
-    std::string errors;
-    std::string warnings;
-    tinygltf::TinyGLTF loader;
-    if (!loader.LoadASCIIFromString(&model, &errors, &warnings, text.data(), static_cast<unsigned>(text.size()), "")) {
-        if (errors.find("bad_alloc") != std::string::npos) {  // tinygltf makes a text of it
-            throw std::bad_alloc();
-        }
-        report.fail("JSON", "tinygltf: {}", errors.substr(0, errors.find('\n')));
-    }
-    restoreIndices(model, document, report);
-    return model;
-}
-
 /// A buffer without a URI is the binary chunk of a .glb; only the first buffer may be.
 std::vector<uint8_t> readBuffer(const json& buffer, const std::string& part, GltfContainer& container,
                                 const std::filesystem::path& folder, GltfReport& report) {
@@ -221,15 +139,14 @@ void listImages(const json& document, GltfDocument& result) {
 
 }  // namespace
 
-GltfDocument readGltfDocument(const std::filesystem::path& path, GltfReport& report) {
+GltfDocument readGltfDocument(const std::filesystem::path& path, GltfReport& report, int scene) {
     GltfContainer container = readGltfContainer(path, report);
     GltfDocument result;
     result.folder = path.parent_path();
-    const json document = checkedGltfDocument(container.document, report);
-    container.document = nullptr;
+    json document = checkedGltfDocument(std::move(container.document), report);
     checkVersion(document, report);
     checkExtensions(document, report);
-    result.model = parseStructure(document, report);
+    static_cast<GltfStructure&>(result) = takeGltfStructure(document, scene, report);
     readBuffers(document, container, result, report);
     decodeMeshopt(document, result.model, report);
     listImages(document, result);

@@ -3,8 +3,8 @@
 
 #include "base/math.h"
 #include "scene/gltf/report.h"
+#include "scene/gltf/structure.h"
 
-#include <tiny_gltf.h>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
@@ -14,14 +14,14 @@ namespace reflet {
 /// All indices in `model` are in range, all buffer views lie in their buffers and all accessors in their views, and the
 /// nodes form trees. `model.buffers` hold their bytes; `model.images` are not decoded. Buffer views and accessors that
 /// are invalid, but tolerated, are empty; GltfReport::use throws their problem.
-struct GltfDocument {
+struct GltfDocument : GltfStructure {
     std::filesystem::path folder;  ///< of the file: URIs are relative to it
-    tinygltf::Model model;
-    std::vector<bool> isChild;  ///< per node: has a parent
+    std::vector<bool> isChild;     ///< per node: has a parent
 };
 
-/// Reads and checks the file; warns of unsupported extensions. Throws Error.
-GltfDocument readGltfDocument(const std::filesystem::path& path, GltfReport& report);
+/// Reads and checks the file; warns of unsupported extensions. scene: the one that will be drawn, < 0: the file's own.
+/// Throws Error.
+GltfDocument readGltfDocument(const std::filesystem::path& path, GltfReport& report, int scene = -1);
 
 /// Cross-checks that ensure GltfDocument's invariants; the second fills isChild. Called by readGltfDocument.
 void checkGltfBuffers(tinygltf::Model& model, GltfReport& report);

@@ -75,7 +75,7 @@ int chooseVariant(const std::vector<std::string>& names, const std::string& want
 }
 
 Scene readScene(const std::filesystem::path& path, const GltfOptions& options, GltfReport& report) {
-    GltfDocument document = readGltfDocument(path, report);
+    GltfDocument document = readGltfDocument(path, report, options.scene);
     Scene scene;
     scene.fromFile = true;
     std::vector<int> roots = chooseScene(document, options.scene, scene.name, report);

@@ -97,7 +97,7 @@ uint32_t GltfMaterials::use(int material, bool lit) {
 }
 
 Material GltfMaterials::convert(int material) {
-    const tinygltf::Material& source = document_.model.materials[static_cast<size_t>(material)];
+    const tinygltf::Material& source = document_.materials.at(material);
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
     const std::string part = fmt::format("materials[{}]", material);
     Material result;

@@ -62,13 +62,16 @@ void addFlatTriangle(const Mesh& mesh, size_t first, Morph& flat) {
     std::ranges::sort(targets);
     targets.erase(std::unique(targets.begin(), targets.end()), targets.end());
     std::array<std::vector<MorphDelta>, 3> deltas;
+    std::array<uint32_t, 3> next{};  // of each corner's deltas, which are in the order of their targets
     for (const uint32_t target : targets) {
         std::array<vec3, 3> moved{};
         for (size_t c = 0; c < 3; ++c) {
             const Morph::Range& range = mesh.morph.vertices[first + c];
             MorphDelta& delta = deltas.at(c).emplace_back(MorphDelta{.target = target});
-            for (uint32_t d = range.first; d < range.first + range.count; ++d) {
-                delta.position += mesh.morph.deltas[d].target == target ? mesh.morph.deltas[d].position : vec3(0.0F);
+            const uint32_t d = range.first + next.at(c);
+            if (next.at(c) < range.count && mesh.morph.deltas[d].target == target) {
+                delta.position = mesh.morph.deltas[d].position;
+                ++next.at(c);
             }
             moved.at(c) = mesh.positions[first + c] + delta.position;
         }

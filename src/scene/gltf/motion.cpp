@@ -31,12 +31,12 @@ Node readGltfNode(const tinygltf::Node& node) {
 
 GltfMotion::GltfMotion(const GltfDocument& document, Scene& scene, GltfReport& report)
     : document_(document), scene_(scene), report_(report) {
-    if (document.model.animations.empty() && document.model.skins.empty()) {
+    if (document.animations.empty() && document.model.skins.empty()) {
         return;
     }
     readNodes();
-    for (size_t i = 0; i < document.model.animations.size(); ++i) {
-        readAnimation(i);
+    for (const auto& [index, animation] : document.animations) {
+        readAnimation(index, animation);
     }
     skins_.assign(document.model.skins.size(), -1);
     for (size_t i = 0; i < document.model.skins.size(); ++i) {
@@ -72,8 +72,7 @@ void GltfMotion::readNodes() {
     }
 }
 
-void GltfMotion::readAnimation(size_t index) {
-    const tinygltf::Animation& source = document_.model.animations[index];
+void GltfMotion::readAnimation(size_t index, const tinygltf::Animation& source) {
     Animation animation{.name = source.name, .channels = {}};
     for (size_t i = 0; i < source.channels.size(); ++i) {
         const tinygltf::AnimationChannel& channel = source.channels[i];

@@ -29,7 +29,7 @@ public:
 
 private:
     void readNodes();
-    void readAnimation(size_t index);
+    void readAnimation(size_t index, const tinygltf::Animation& source);
     void readSkin(size_t index);
     /// nullopt, with a warning, if it cannot be played.
     std::optional<Channel> readChannel(const tinygltf::Animation& animation, const tinygltf::AnimationChannel& channel,

@@ -48,7 +48,7 @@ public:
         countOf(document, "variants", "/extensions/KHR_materials_variants/variants");
     }
 
-    json object(const json& value, std::span<const Field> fields, const Place* place) {
+    json object(json& value, std::span<const Field> fields, const Place* place) {
         if (!value.is_object()) {
             fail(place, "is {}, not an object", kindOf(value));
         }
@@ -95,7 +95,7 @@ private:
     }
 
     /// False if the value is invalid, and is left out.
-    bool addProperty(json& object, const json& value, const Field& field, const Place& place) {
+    bool addProperty(json& object, json& value, const Field& field, const Place& place) {
         const auto add = [&] {
             json checked = property(value, field, place);
             object[field.name] = std::move(checked);
@@ -120,7 +120,7 @@ private:
     }
 
     /// False if the element is invalid, and is replaced or left out.
-    bool addElement(json& array, const json& value, const Field& field, const Place& place) {
+    bool addElement(json& array, json& value, const Field& field, const Place& place) {
         const auto add = [&] { array.push_back(single(value, field, place)); };
         if (field.standIn == nullptr) {
             add();
@@ -130,7 +130,7 @@ private:
                                         : report_.tolerateUntilUsed(field.name, place.index, add);
     }
 
-    json property(const json& value, const Field& field, const Place& place) {
+    json property(json& value, const Field& field, const Place& place) {
         if (!field.array) {
             return single(value, field, place);
         }
@@ -143,6 +143,7 @@ private:
         json result = json::array();
         for (size_t i = 0; i < value.size(); ++i) {
             const bool isValid = addElement(result, value[i], field, {.parent = &place, .index = i});
+            value[i] = nullptr;  // frees it: the document is in memory once
             if (!isValid && *field.standIn != '\0') {
                 result.push_back(parseJson(field.standIn));
             }
@@ -150,7 +151,7 @@ private:
         return result;
     }
 
-    json single(const json& value, const Field& field, const Place& place) {
+    json single(json& value, const Field& field, const Place& place) {
         switch (field.type) {
             case Type::boolean:
                 if (!value.is_boolean()) {
@@ -273,7 +274,7 @@ bool knownGltfExtension(const std::string& name) {
     return std::find(known.begin(), known.end(), name) != known.end();
 }
 
-json checkedGltfDocument(const json& document, GltfReport& report) {
+json checkedGltfDocument(json document, GltfReport& report) {
     return Checker(document, report).object(document, gltf_schema::document(), nullptr);
 }
 

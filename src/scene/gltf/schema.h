@@ -7,10 +7,11 @@
 
 namespace reflet {
 
-/// Returns a copy that holds only what the loader reads, with all types, ranges and indices checked and whole numbers
-/// as integers. Throws Error with the JSON path of the first invalid value; unless the report is strict, only if
-/// nothing can be read without it. Elements that are tolerated until used are stand-ins, to which nothing refers.
-nlohmann::json checkedGltfDocument(const nlohmann::json& document, GltfReport& report);
+/// Returns of the document what the loader reads, whose elements are freed as they are read, with all types, ranges and
+/// indices checked and whole numbers as integers. Throws Error with the JSON path of the first invalid value; unless
+/// the report is strict, only if nothing can be read without it. Elements that are tolerated until used are stand-ins,
+/// to which nothing refers.
+nlohmann::json checkedGltfDocument(nlohmann::json document, GltfReport& report);
 
 /// Whether the loader supports the extension.
 bool knownGltfExtension(const std::string& name);
