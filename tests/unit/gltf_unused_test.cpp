@@ -95,5 +95,26 @@ TEST(GltfUnused, PiecesAreInTheFilesOrder) {
     EXPECT_EQ(document.model.nodes[3000].name, longName + "2999");
 }
 
+TEST(GltfUnused, EqualBuffersAreReadOnce) {
+    GltfBuilder b = slider();
+    const std::filesystem::path file = testFolder() / "equal.gltf";
+    const json buffer = {{"byteLength", b.bin.size()},
+                         {"uri", "data:application/octet-stream;base64," + base64(b.bin)}};
+    b.document["buffers"] = json(100, buffer);
+    size_t next = 0;
+    for (json& view : b.document["bufferViews"]) {
+        view["buffer"] = ++next;
+    }
+    writeBytes(file, b.document.dump());
+    GltfReport report(file.string(), {}, true);
+    const GltfDocument document = readGltfDocument(file, report, -1);
+    size_t bytes = 0;
+    for (const tinygltf::Buffer& read : document.model.buffers) {
+        bytes += read.data.size();
+    }
+    EXPECT_EQ(bytes, b.bin.size());
+    EXPECT_GT(next, 1U);
+}
+
 }  // namespace
 }  // namespace reflet::test::gltf_unused_test

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <string_view>
 
@@ -111,13 +112,49 @@ std::vector<uint8_t> readBuffer(const json& buffer, const std::string& part, Glt
     return bytes;
 }
 
-void readBuffers(const json& document, GltfContainer& container, GltfDocument& result, GltfReport& report) {
+/// Per buffer the first that is the same part of the same file; its own index if there is none before it.
+std::vector<size_t> firstOfEqualBuffers(const json& document) {
+    std::vector<size_t> firsts;
+    std::map<std::pair<std::string_view, uint64_t>, size_t> seen;
+    for (const json& buffer : arrayOf(document, "buffers")) {
+        size_t first = firsts.size();
+        if (buffer.contains("uri") && !isMeshoptFallback(buffer)) {
+            const std::string_view uri = buffer["uri"].get_ref<const std::string&>();
+            first = seen.try_emplace({uri, buffer["byteLength"].get<uint64_t>()}, first).first->second;
+        }
+        firsts.push_back(first);
+    }
+    return firsts;
+}
+
+/// Views of equal buffers are views of the first of them: the others need not be read. Returns firstOfEqualBuffers.
+std::vector<size_t> shareEqualBuffers(json& document) {
+    std::vector<size_t> firsts = firstOfEqualBuffers(document);
+    const auto share = [&](json& object) {
+        const auto buffer = object.find("buffer");
+        if (buffer != object.end() && buffer->is_number_unsigned() && buffer->get<size_t>() < firsts.size()) {
+            *buffer = firsts[buffer->get<size_t>()];
+        }
+    };
+    if (const auto views = document.find("bufferViews"); views != document.end()) {
+        for (json& view : *views) {
+            share(view);
+            if (const auto extensions = view.find("extensions"); extensions != view.end()) {
+                std::ranges::for_each(*extensions, share);  // of meshopt
+            }
+        }
+    }
+    return firsts;
+}
+
+void readBuffers(const json& document, GltfContainer& container, const std::vector<size_t>& firsts,
+                 GltfDocument& result, GltfReport& report) {
     size_t i = 0;
     for (const json& buffer : arrayOf(document, "buffers")) {
         const std::string part = fmt::format("buffers[{}]", i);
         tinygltf::Buffer read;
         report.tolerateUntilUsed("buffers", i, [&] {
-            if (!isMeshoptFallback(buffer)) {
+            if (firsts[i] == i && !isMeshoptFallback(buffer)) {
                 read.data = readBuffer(buffer, part, container, result.folder, report);
             }
         });
@@ -146,8 +183,9 @@ GltfDocument readGltfDocument(const std::filesystem::path& path, GltfReport& rep
     json document = checkedGltfDocument(std::move(container.document), report);
     checkVersion(document, report);
     checkExtensions(document, report);
+    const std::vector<size_t> firsts = shareEqualBuffers(document);
     static_cast<GltfStructure&>(result) = takeGltfStructure(document, scene, report);
-    readBuffers(document, container, result, report);
+    readBuffers(document, container, firsts, result, report);
     decodeMeshopt(document, result.model, report);
     listImages(document, result);
     checkGltfBuffers(result.model, report);
