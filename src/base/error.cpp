@@ -40,6 +40,22 @@ std::optional<std::string_view> textOf(const fmt::format_args::format_arg& arg) 
         arg);
 }
 
+// visibleText. No name of a file is longer than 255 bytes: longer words are no path that exists, and are cut.
+std::string shownText(std::string_view text) {
+    constexpr size_t longestName = 255;
+    const std::string visible = visibleText(text);
+    const std::string_view all = visible;
+    std::string result;
+    for (size_t at = 0; at < all.size();) {
+        const size_t end = std::min(all.find_first_of(" /", at), all.size());
+        const std::string_view word = all.substr(at, end - at);
+        result += word.size() > longestName ? oneLine(word) : std::string(word);
+        result += all.substr(end, 1);
+        at = end + 1;
+    }
+    return result;
+}
+
 }  // namespace
 
 std::string formatMessage(fmt::string_view format, fmt::format_args args) {
@@ -61,7 +77,7 @@ std::string formatMessage(fmt::string_view format, fmt::format_args args) {
             const std::optional<std::string_view> value = textOf(args.get(index));
             const bool quoted = i > 0 && text[i - 1] == '\'' && text.substr(field.end, 1) == "'";
             if (value && field.spec.empty()) {
-                result += quoted ? oneLine(*value) : visibleText(*value);
+                result += quoted ? oneLine(*value) : shownText(*value);
             } else {
                 result += fmt::vformat("{" + std::to_string(index) + std::string(field.spec) + "}", args);
             }

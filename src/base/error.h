@@ -22,7 +22,7 @@ public:
 };
 
 /// fmt::vformat for messages, whose arguments may come from outside: texts are shown by visibleText, and those that
-/// stand in quotes, '{}', by oneLine.
+/// stand in quotes, '{}', by oneLine, as are words of over 255 bytes.
 std::string formatMessage(fmt::string_view format, fmt::format_args args);
 
 /// The same with arguments as of fmt::format, checked when compiled.

@@ -48,6 +48,9 @@ TEST(VisibleText, OfMessagesIsQuotedAndTheRestWhole) {
     EXPECT_EQ(messageText("{}: '{}' {{{:>4}}} {} '{}'", longName, longName, 7, text, 2.5),
               std::string(100, 'n') + "\\x9b: '" + std::string(80, 'n') + "...' {   7} c\\n '2.5'");
     EXPECT_EQ(messageText("{1} {0}", "a", "b"), "b a");
+    const std::string path = "/a b/" + std::string(255, 'c') + "/";
+    EXPECT_EQ(messageText("{}: no", path), path + ": no");
+    EXPECT_EQ(messageText("{}: no", path + std::string(256, 'd') + "/e"), path + std::string(80, 'd') + ".../e: no");
 }
 
 TEST(VisibleText, IsWhatDocumentsHave) {
