@@ -11,6 +11,7 @@ namespace {
 constexpr int side = 64;             // pixels of the z-buffer
 constexpr double enoughSeen = 0.6;   // share of the most that any direction shows
 constexpr double mainlyBacks = 2.0;  // times as many backs as fronts
+constexpr double mostPixels = 16e6;  // to draw per direction; above, only every n-th triangle is drawn
 
 struct Angles {
     float azimuth;    // degrees from +Z to the right (+X)
@@ -29,6 +30,10 @@ vec3 towardsCamera(const Angles& angles) {
     return {std::cos(elevation) * std::sin(azimuth), std::sin(elevation), std::cos(elevation) * std::cos(azimuth)};
 }
 
+float pixelsPerUnit(const Aabb& box) {
+    return float(side) / std::max(glm::length(box.size()), 1e-18F);
+}
+
 enum class Side : uint8_t { none, front, back };
 
 class VisibleSides {
@@ -36,7 +41,7 @@ public:
     VisibleSides(const vec3& toCamera, const Aabb& box) : toCamera_(toCamera), center_(box.center()) {
         right_ = glm::normalize(glm::cross(vec3(0, 1, 0), toCamera));
         up_ = glm::cross(toCamera, right_);
-        scale_ = float(side) / std::max(glm::length(box.size()), 1e-18F);
+        scale_ = pixelsPerUnit(box);
         nearest_.fill(std::numeric_limits<float>::lowest());
         sides_.fill(Side::none);
     }
@@ -109,6 +114,18 @@ private:
     std::array<Side, size_t(side) * side> sides_{};
 };
 
+// 1 unless very many triangles are large.
+size_t strideOf(const std::vector<FramedTriangle>& triangles, const Aabb& box) {
+    double pixels = 0.0;  // that they cover at most, from wherever they are seen
+    for (const FramedTriangle& t : triangles) {
+        const vec3 edge1 = t.corners[1] - t.corners[0];
+        const vec3 edge2 = t.corners[2] - t.corners[0];
+        const float longest = std::max(glm::dot(edge1, edge1), glm::dot(edge2, edge2));
+        pixels += std::min(double(side) * side, double(longest) * pixelsPerUnit(box) * pixelsPerUnit(box));
+    }
+    return 1 + static_cast<size_t>(pixels / mostPixels);
+}
+
 struct Hit {
     float distance = std::numeric_limits<float>::max();
     bool front = false;
@@ -146,10 +163,11 @@ vec3 threeQuarterView() {
 std::optional<vec3> bestViewDirection(const std::vector<FramedTriangle>& triangles, const Aabb& box) {
     std::array<double, candidates.size()> scores{};
     bool room = !triangles.empty();
+    const size_t stride = strideOf(triangles, box);
     for (size_t i = 0; i < candidates.size(); ++i) {
         VisibleSides sides(towardsCamera(candidates.at(i)), box);
-        for (const FramedTriangle& triangle : triangles) {
-            sides.draw(triangle);
+        for (size_t t = 0; t < triangles.size(); t += stride) {
+            sides.draw(triangles[t]);
         }
         const double fronts = sides.count(Side::front);
         const double backs = sides.count(Side::back);
