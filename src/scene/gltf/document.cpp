@@ -21,13 +21,6 @@ namespace {
 
 using nlohmann::json;
 
-/// The array of this name in a checked document; empty if there is none.
-const json& arrayOf(const json& document, const char* name) {
-    static const json none = json::array();
-    const auto found = document.find(name);
-    return found != document.end() ? *found : none;
-}
-
 /// "MAJOR.MINOR" with MAJOR 2; a file that depends on a minor version says so in minVersion.
 void checkVersion(const json& document, GltfReport& report) {
     const auto& asset = document["asset"];
@@ -69,7 +62,7 @@ bool isHarmless(const std::string& extension) {
 /// A required extension can be done without if the consequence is known.
 void checkExtensions(const json& document, GltfReport& report) {
     std::set<std::string> told;
-    for (const std::string name : arrayOf(document, "extensionsRequired")) {
+    for (const std::string name : arrayIn(document, "extensionsRequired")) {
         const std::string_view consequence = consequenceOf(name);
         const auto check = [&] {
             if (!knownGltfExtension(name) && !isHarmless(name)) {
@@ -82,7 +75,7 @@ void checkExtensions(const json& document, GltfReport& report) {
             told.insert(name);
         }
     }
-    for (const std::string name : arrayOf(document, "extensionsUsed")) {
+    for (const std::string name : arrayIn(document, "extensionsUsed")) {
         if (!knownGltfExtension(name) && !isHarmless(name) && told.insert(name).second) {
             const std::string_view consequence = consequenceOf(name);
             report.warn("extension " + name, "extensionsUsed", "{}: {} is not supported",
@@ -116,7 +109,7 @@ std::vector<uint8_t> readBuffer(const json& buffer, const std::string& part, Glt
 std::vector<size_t> firstOfEqualBuffers(const json& document) {
     std::vector<size_t> firsts;
     std::map<std::pair<std::string_view, uint64_t>, size_t> seen;
-    for (const json& buffer : arrayOf(document, "buffers")) {
+    for (const json& buffer : arrayIn(document, "buffers")) {
         size_t first = firsts.size();
         if (buffer.contains("uri") && !isMeshoptFallback(buffer)) {
             const std::string_view uri = buffer["uri"].get_ref<const std::string&>();
@@ -150,7 +143,7 @@ std::vector<size_t> shareEqualBuffers(json& document) {
 void readBuffers(const json& document, GltfContainer& container, const std::vector<size_t>& firsts,
                  GltfDocument& result, GltfReport& report) {
     size_t i = 0;
-    for (const json& buffer : arrayOf(document, "buffers")) {
+    for (const json& buffer : arrayIn(document, "buffers")) {
         const std::string part = fmt::format("buffers[{}]", i);
         tinygltf::Buffer read;
         report.tolerateUntilUsed("buffers", i, [&] {
@@ -165,7 +158,7 @@ void readBuffers(const json& document, GltfContainer& container, const std::vect
 }
 
 void listImages(const json& document, GltfDocument& result) {
-    for (const json& image : arrayOf(document, "images")) {
+    for (const json& image : arrayIn(document, "images")) {
         tinygltf::Image listed;
         listed.name = image.value("name", "");
         listed.uri = image.value("uri", "");

@@ -274,6 +274,12 @@ bool knownGltfExtension(const std::string& name) {
     return std::find(known.begin(), known.end(), name) != known.end();
 }
 
+const json& arrayIn(const json& object, const char* name) {
+    static const json none = json::array();
+    const auto found = object.find(name);
+    return found != object.end() ? *found : none;
+}
+
 json checkedGltfDocument(json document, GltfReport& report) {
     return Checker(document, report).object(document, gltf_schema::document(), nullptr);
 }

@@ -13,6 +13,9 @@ namespace reflet {
 /// to which nothing refers.
 nlohmann::json checkedGltfDocument(nlohmann::json document, GltfReport& report);
 
+/// The array of this name in an object of a checked document; empty if there is none.
+const nlohmann::json& arrayIn(const nlohmann::json& object, const char* name);
+
 /// Whether the loader supports the extension.
 bool knownGltfExtension(const std::string& name);
 

@@ -1,6 +1,8 @@
 // Finds what the drawn scene uses by walking the document's references.
 #include "scene/gltf/used.h"
 
+#include "scene/gltf/schema.h"
+
 #include <algorithm>
 #include <set>
 
@@ -9,13 +11,6 @@ namespace reflet {
 namespace {
 
 using nlohmann::json;
-
-/// The array of this name in an object of the document; empty if there is none.
-const json& arrayIn(const json& object, const char* name) {
-    static const json none = json::array();
-    const auto found = object.find(name);
-    return found != object.end() && found->is_array() ? *found : none;
-}
 
 size_t indexIn(const json& object, const char* name, size_t otherwise) {
     const auto found = object.find(name);
