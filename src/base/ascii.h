@@ -1,6 +1,8 @@
 // Letters and digits of ASCII. The functions of <cctype> obey the locale that a host has set for its whole process.
 #pragma once
 
+#include <string>
+
 namespace reflet {
 
 constexpr bool isAsciiDigit(char c) {
@@ -17,6 +19,13 @@ constexpr char asciiLower(char c) {
 
 constexpr char asciiUpper(char c) {
     return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+}
+
+inline std::string inLowerCase(std::string text) {
+    for (char& c : text) {
+        c = asciiLower(c);
+    }
+    return text;
 }
 
 constexpr bool isAsciiAlphanumeric(char c) {

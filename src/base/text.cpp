@@ -1,5 +1,6 @@
 // Suggests the name that a mistyped one was meant to be: optimal string alignment distance.
 #include "base/text.h"
+
 #include "base/ascii.h"
 #include "base/error.h"
 

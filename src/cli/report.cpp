@@ -1,7 +1,6 @@
 // `reflet report`: writes a page that compares the error and time of variants.
-#include "base/error.h"
-
 #include "base/ascii.h"
+#include "base/error.h"
 #include "base/file.h"
 #include "base/image_file.h"
 #include "base/progress.h"

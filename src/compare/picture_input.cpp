@@ -1,5 +1,6 @@
 // Reads images that are named on the command line.
 #include "compare/picture_input.h"
+
 #include "base/ascii.h"
 #include "base/error.h"
 #include "base/message.h"
@@ -17,14 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string lowerExtension(const std::string& file) {
-    std::string extension = fs::path(file).extension().string();
-    std::ranges::transform(extension, extension.begin(), asciiLower);
-    return extension;
-}
-
 std::optional<ImageKind> kindOf(const std::string& file) {
-    const std::string extension = lowerExtension(file);
+    const std::string extension = inLowerCase(fs::path(file).extension().string());
     if (extension == ".exr" || extension == ".hdr") {
         return ImageKind::linear;
     }
@@ -146,7 +141,7 @@ PictureName parsePictureName(const std::string& text) {
         failUsage("{}: the name must end in .png, .jpg, .jpeg, .exr (or .exr:LAYER) or .hdr", text);
     }
     name.kind = *kind;
-    name.exr = lowerExtension(ending) == ".exr";
+    name.exr = inLowerCase(fs::path(ending).extension().string()) == ".exr";
     if (!name.exr && name.file != text) {
         failUsage("{}: only EXR files have layers", text);
     }

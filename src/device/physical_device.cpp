@@ -1,5 +1,6 @@
 // Lists Vulkan devices, checks them against the minimum requirements and selects one.
 #include "device/physical_device.h"
+
 #include "base/ascii.h"
 #include "base/error.h"
 #include "base/visible_text.h"
@@ -19,11 +20,6 @@ constexpr uint32_t minSampledImages = 128;
 std::string versionText(uint32_t version) {
     return fmt::format("{}.{}.{}", VK_API_VERSION_MAJOR(version), VK_API_VERSION_MINOR(version),
                        VK_API_VERSION_PATCH(version));
-}
-
-std::string lower(std::string text) {
-    std::ranges::transform(text, text.begin(), asciiLower);
-    return text;
 }
 
 const char* kindName(VkPhysicalDeviceType type) {
@@ -170,7 +166,7 @@ std::optional<size_t> findSelected(std::span<const DeviceDescription> all, const
         return index < all.size() ? std::optional(index) : std::nullopt;
     }
     const auto found = std::ranges::find_if(
-        all, [&](const auto& d) { return lower(d.name).find(lower(select)) != std::string::npos; });
+        all, [&](const auto& d) { return inLowerCase(d.name).find(inLowerCase(select)) != std::string::npos; });
     return found == all.end() ? std::nullopt : std::optional<size_t>(found - all.begin());
 }
 

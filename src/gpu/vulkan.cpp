@@ -22,7 +22,8 @@ const char* advice(VkResult result) {
         case VK_ERROR_SURFACE_LOST_KHR:
             return "; open the window again";
         case VK_ERROR_UNKNOWN:
-            return ", most often because no thread could be started: raise the limit of processes (ulimit -u), or end "
+            return "; if it runs on the CPU, threads may have run out: raise the limit of processes (ulimit -u), or "
+                   "end "
                    "others";
         default:
             return "";

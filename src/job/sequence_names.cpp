@@ -1,5 +1,6 @@
 // File names of a sequence.
 #include "job/sequence_names.h"
+
 #include "base/ascii.h"
 #include "base/error.h"
 

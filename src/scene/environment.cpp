@@ -1,5 +1,6 @@
 // Environment images: lookup by direction, and reading from files.
 #include "scene/environment.h"
+
 #include "base/ascii.h"
 #include "base/error.h"
 
@@ -14,12 +15,6 @@ namespace {
 /// The texel that contains a coordinate in 0..1; 1 is in the last one.
 uint32_t texelOf(float coordinate, uint32_t count) {
     return std::min(static_cast<uint32_t>(coordinate * static_cast<float>(count)), count - 1);
-}
-
-std::string lowerExtension(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::ranges::transform(extension, extension.begin(), asciiLower);
-    return extension;
 }
 
 /// R, G and B of the unnamed layer, in this order.
@@ -89,7 +84,7 @@ vec3 radianceFrom(const Environment& environment, const vec3& direction) {
 }
 
 FloatImage readEnvironmentImage(const std::filesystem::path& path) {
-    const std::string extension = lowerExtension(path);
+    const std::string extension = inLowerCase(path.extension().string());
     if (extension != ".hdr" && extension != ".exr") {
         fail("{}: cannot be used as an environment: its name must end in .hdr or .exr (or be sky, studio or none)",
              path.string());

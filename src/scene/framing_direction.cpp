@@ -116,7 +116,7 @@ private:
 
 // 1 unless very many triangles are large.
 size_t strideOf(const std::vector<FramedTriangle>& triangles, const Aabb& box) {
-    double pixels = 0.0;  // that they cover at most, from wherever they are seen
+    double pixels = 0.0;  // that they cover, roughly and at most, seen from the side that shows most
     for (const FramedTriangle& t : triangles) {
         const vec3 edge1 = t.corners[1] - t.corners[0];
         const vec3 edge2 = t.corners[2] - t.corners[0];

@@ -1,5 +1,6 @@
 // Draws the list of files with Dear ImGui.
 #include "view/file_browser.h"
+
 #include "base/ascii.h"
 
 #include <imgui.h>
@@ -14,11 +15,6 @@ namespace reflet {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string inLowerCase(std::string text) {
-    std::ranges::transform(text, text.begin(), asciiLower);
-    return text;
-}
 
 bool canOpen(const fs::path& file) {
     constexpr std::array<const char*, 5> extensions{".gltf", ".glb", ".exr", ".hdr", ".json"};

@@ -1,5 +1,6 @@
 // Saves and restores the viewer's state.
 #include "view/saved_state.h"
+
 #include "base/ascii.h"
 #include "base/error.h"
 #include "base/home.h"

@@ -1,5 +1,6 @@
 // Search in the settings panel.
 #include "view/setting_search.h"
+
 #include "base/ascii.h"
 
 #include <algorithm>
@@ -38,12 +39,6 @@ constexpr std::pair<std::string_view, std::string_view> synonyms[] = {
     {"tonemap.", "tone mapping brightness hdr exposure display"},
 };
 
-std::string lower(std::string_view text) {
-    std::string small(text);
-    std::ranges::transform(small, small.begin(), asciiLower);
-    return small;
-}
-
 bool isLetter(char c) {
     return isAsciiAlphanumeric(c);
 }
@@ -61,7 +56,7 @@ bool beginsAWord(const std::string& text, const std::string& word) {
 std::vector<std::string> wordsOf(std::string_view text) {
     std::vector<std::string> words;
     std::string word;
-    for (const char c : lower(text) + " ") {
+    for (const char c : inLowerCase(std::string(text)) + " ") {
         if (c != ' ') {
             word += c;
         } else if (!word.empty()) {
@@ -74,7 +69,7 @@ std::vector<std::string> wordsOf(std::string_view text) {
 }  // namespace
 
 bool isFound(const SettingEntry& entry, std::string_view typed) {
-    std::string text = lower(entry.info.help);
+    std::string text = inLowerCase(std::string(entry.info.help));
     for (const auto& [begin, terms] : synonyms) {
         if (entry.name.starts_with(begin)) {
             text += " ";

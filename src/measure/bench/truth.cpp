@@ -1,5 +1,6 @@
 // Makes ground truth images and caches them in a folder.
 #include "measure/bench/truth.h"
+
 #include "base/ascii.h"
 #include "base/error.h"
 #include "base/file.h"
