@@ -11,7 +11,7 @@ namespace {
 constexpr int side = 64;             // pixels of the z-buffer
 constexpr double enoughSeen = 0.6;   // share of the most that any direction shows
 constexpr double mainlyBacks = 2.0;  // times as many backs as fronts
-constexpr double mostPixels = 16e6;  // to draw per direction; above, only every n-th triangle is drawn
+constexpr double mostPixels = 16e6;  // to draw per direction; of more, a share of the triangles is drawn
 
 struct Angles {
     float azimuth;    // degrees from +Z to the right (+X)
@@ -114,8 +114,9 @@ private:
     std::array<Side, size_t(side) * side> sides_{};
 };
 
-// 1 unless very many triangles are large.
-size_t strideOf(const std::vector<FramedTriangle>& triangles, const Aabb& box) {
+// All of them, unless very many are large: then a share, spread evenly over their order by the golden ratio, which
+// keeps step with no pattern in it.
+std::vector<FramedTriangle> drawnOf(const std::vector<FramedTriangle>& triangles, const Aabb& box) {
     double pixels = 0.0;  // that they cover, roughly and at most, seen from the side that shows most
     for (const FramedTriangle& t : triangles) {
         const vec3 edge1 = t.corners[1] - t.corners[0];
@@ -123,7 +124,13 @@ size_t strideOf(const std::vector<FramedTriangle>& triangles, const Aabb& box) {
         const float longest = std::max(glm::dot(edge1, edge1), glm::dot(edge2, edge2));
         pixels += std::min(double(side) * side, double(longest) * pixelsPerUnit(box) * pixelsPerUnit(box));
     }
-    return 1 + static_cast<size_t>(pixels / mostPixels);
+    std::vector<FramedTriangle> drawn;
+    for (size_t i = 0; i < triangles.size(); ++i) {
+        if (glm::fract(double(i) * 0.6180339887498949) * pixels <= mostPixels) {
+            drawn.push_back(triangles[i]);
+        }
+    }
+    return drawn;
 }
 
 struct Hit {
@@ -163,11 +170,11 @@ vec3 threeQuarterView() {
 std::optional<vec3> bestViewDirection(const std::vector<FramedTriangle>& triangles, const Aabb& box) {
     std::array<double, candidates.size()> scores{};
     bool room = !triangles.empty();
-    const size_t stride = strideOf(triangles, box);
+    const std::vector<FramedTriangle> drawn = drawnOf(triangles, box);
     for (size_t i = 0; i < candidates.size(); ++i) {
         VisibleSides sides(towardsCamera(candidates.at(i)), box);
-        for (size_t t = 0; t < triangles.size(); t += stride) {
-            sides.draw(triangles[t]);
+        for (const FramedTriangle& triangle : drawn) {
+            sides.draw(triangle);
         }
         const double fronts = sides.count(Side::front);
         const double backs = sides.count(Side::back);

@@ -254,6 +254,16 @@ TEST(Framing, ABoxThatIsOpenToOneSideIsSeenFromThere) {
     expectFramed(sceneOf({room}, true));
 }
 
+TEST(Framing, ManyEqualLargeThingsAreSeenAsOne) {  // so many that only some of them are drawn
+    Mesh room = box({0, 0, 0}, {1, 1, 1}, true);
+    room.indices.resize(30);
+    const std::vector<uint32_t> one = room.indices;
+    for (int i = 0; i < 4000; ++i) {
+        room.indices.insert(room.indices.end(), one.begin(), one.end());
+    }
+    EXPECT_GT(sideSeen(sceneOf({room}, true)).z, 0.9F);
+}
+
 TEST(Framing, AClosedRoomIsSeenFromInsideAlongItsLongerSide) {
     const Scene scene = sceneOf({box({0, 0, 0}, {8, 3, 4}, true), box({1, 0, 1}, {2, 1, 2})}, true);
     const Camera camera = framingCamera(scene, 1.5F);
