@@ -19,6 +19,7 @@ struct Light : LightLayers {
     /// Depth and motion that the light of a pixel moves with.
     gpu::Image followedDepth;
     gpu::Image followedMotion;
+    gpu::Image baseColor;    ///< of the G-buffer; none: unknown
     gpu::Image reactive;     ///< share of the history that antialiasing gives up, red; none: 0
     gpu::Image antialiased;  ///< radiance, history length; none without temporal antialiasing
     /// `lit` before antialiasing and depth of field, of the rendered size; none: `lit` itself.

@@ -37,6 +37,7 @@ Light lightOf(const Surfaces& surfaces, gpu::Image lit) {
     light.depth = surfaces.shownDepth ? surfaces.shownDepth : surfaces.g.depth;
     light.followedDepth = light.depth;
     light.reactive = surfaces.reactive;
+    light.baseColor = surfaces.g.baseColor;
     light.followedMotion = surfaces.g.motion;
     return light;
 }
@@ -85,6 +86,7 @@ Light antialias(gpu::PassList& f, TemporalStore& own, const ViewContext& in, con
                                            .jitter = to.jitter,
                                            .sky = light.coverage ? nullptr : to.sky,
                                            .reactive = light.reactive,
+                                           .baseColor = light.baseColor,
                                            .mixesSizes = to.mixesSizes},
                                           settings.temporal);
     Light out = light;

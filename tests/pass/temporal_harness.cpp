@@ -21,11 +21,13 @@ std::vector<vec4> TemporalRun::add(const MadeUpFrame& picture) {
     std::vector<vec4> radiance;
     std::vector<vec4> motion;
     std::vector<vec4> depth;
+    std::vector<vec4> roots;
     for (uint32_t i = 0; i < size_.x * size_.y; ++i) {
         const MadeUpPixel p = picture({i % size_.x, i / size_.x});
         radiance.emplace_back(p.radiance, 1.0F);
         motion.emplace_back(p.motion / vec2(size_), 0.0F, 0.0F);
         depth.emplace_back(p.depth);
+        roots.emplace_back(glm::sqrt(glm::max(p.baseColor, 0.0F)), 1.0F);
     }
     std::vector<gpu::Buffer> uploads;
     const auto fill = [&](const char* name, const std::vector<vec4>& texels) {
@@ -42,11 +44,14 @@ std::vector<vec4> TemporalRun::add(const MadeUpFrame& picture) {
     const gpu::Image shown = fill("radiance", radiance);
     const gpu::Image motions = fill("motion", motion);
     const gpu::Image depths = fill("depth", depth);
+    const bool textured = picture({0, 0}).baseColor.x >= 0.0F;
+    const gpu::Image baseColor = textured ? fill("base_color", roots) : gpu::Image{};
     ViewParams view{};
     view.exposureChange = 1.0F;
     const vec2 jitter = subpixelJitter(count_);
     view.frame = count_++;
-    const TemporalInputs in{depths, motions, shown, {}, view, output_, jitter};
+    TemporalInputs in{depths, motions, shown, {}, view, output_, jitter};
+    in.baseColor = baseColor;
     const gpu::Readback copy = frame_.readback(temporal(frame_, store_, in, settings_).mean);
     frame_.submit();
     frame_.wait();

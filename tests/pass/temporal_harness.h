@@ -14,6 +14,7 @@ struct MadeUpPixel {
     vec3 radiance{0.0F};
     vec2 motion{0.0F};  ///< pixels of the frame
     float depth = 0.5F;
+    vec3 baseColor{-1.0F};  ///< linear; below 0 in the first pixel: none is given
 };
 using MadeUpFrame = std::function<MadeUpPixel(uvec2 pixel)>;
 

@@ -48,7 +48,9 @@ void bindHistories(gpu::ComputePass& pass, const Histories& h, const TemporalInp
 
 void bindSurfaces(gpu::PassList& f, gpu::ComputePass& pass, const Histories& h, const TemporalInputs& in) {
     pass.constant("isReactive", in.reactive ? 1U : 0U)
-        .read("reactive", in.reactive ? in.reactive : f.placeholder(VK_FORMAT_R8_UNORM));
+        .constant("hasBaseColor", in.baseColor ? 1U : 0U)
+        .read("reactive", in.reactive ? in.reactive : f.placeholder(VK_FORMAT_R8_UNORM))
+        .read("baseColor", in.baseColor ? in.baseColor : f.placeholder(VK_FORMAT_A2B10G10R10_UNORM_PACK32));
     pass.read("previousSeen", h.seen.previous)
         .write("seen", h.seen.next)
         .read("previousChanges", h.changes.previous)

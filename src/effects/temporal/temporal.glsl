@@ -39,8 +39,8 @@ void resolve(ivec2 pixel, Row above, Row row, Row below) {
     now.variance = max((above.squares + row.squares + below.squares) / 9.0 - now.middle * now.middle, 0.0);
     now.moved = surface.moved * vec2(params.size);
     now.follows = surface.follows;
-    Changed change = changedAt(pixel, steadyLuma(above, row, below), surface);
-    now.stale = change.stale;
+    Changed change = changedAt(pixel, steadyLight(above, row, below), surface);
+    now.disturbed = change.disturbed;
     now.relit = change.relit;
     now.reactive = reactiveAt(pixel);
 #if HAS_COVERAGE

@@ -5,9 +5,10 @@
 // foreground), reads the history there (Catmull-Rom, to stay sharp), clips it to the local distribution of this frame's
 // pixels (history clip), and blends in this frame with a weight of one over the history length.
 // What the last frame did not show where a surface was (it was hidden by what has left) starts anew: each pixel keeps
-// the distance and the own motion of what it showed. Where a static surface's neighbourhood gets brighter or darker
-// over frames, its light has changed, and the history is scaled alike, so that its detail is kept. The sky of a moving
-// camera is filtered over each pixel, without history. Frames may be smaller than the output (temporal upscaling): the
+// the distance and the own motion of what it showed. Where the light of a static surface, its radiance without the
+// texture, gets brighter or darker over frames, the history is scaled alike, so that its detail is kept; where it also
+// is uneven, or was, a shadow's edge has moved, and the pixel starts anew. The sky of a moving camera is filtered over
+// each pixel, without history. Frames may be smaller than the output (temporal upscaling): the
 // jitter then brings samples to all of the output's pixels in turn. At rest, a pixel's mean takes only samples that lie
 // in its own area, so that it converges to what a frame of the output's size converges to; until it has one, and in
 // motion, it takes those around it, weighted by a Gaussian of their distance, which also is their weight in the mean.
@@ -91,7 +92,8 @@ namespace reflet {
 /// jitter (jitter.h), may contain NaN and infinity. view: of this frame; the sky is reprojected with it. coverage: if
 /// given, that of the pixels by surfaces, red, 0 to 1; radiance is premultiplied by it. outputSize: at least that of
 /// radiance; 0: the same. jitter: of this frame, in its pixels. reactive: red, the share of the history that a pixel
-/// gives up, 0 to 1; none: 0. mixesSizes: the mean has samples of frames of another size; then those of the output's
+/// gives up, 0 to 1; none: 0. baseColor: as in GBuffer, so that textures do not hide changes
+/// of light; none: they may. mixesSizes: the mean has samples of frames of another size; then those of the output's
 /// size are added as in upscaling, too, as limits for frames that all have it take what others saw for stale. sky: what
 /// is seen where depth is 0, if that is an environment and nothing else; it must live until the call returns.
 struct TemporalInputs {
@@ -104,6 +106,7 @@ struct TemporalInputs {
     vec2 jitter{};
     const EnvironmentLight* sky = nullptr;
     gpu::Image reactive{};
+    gpu::Image baseColor{};
     bool mixesSizes = false;
 };
 

@@ -14,7 +14,7 @@ layout(rgba16f) uniform readonly image2D previousSeen;
 layout(rgba16f) uniform writeonly image2D seen;  // distance, own motion, 1: at rest
 layout(rgba16f) uniform readonly image2D previousChanges;
 layout(rgba16f) uniform writeonly image2D changes;
-layout(rgba16f) uniform writeonly image2D changed;  // stale, relit (-1: the last frame showed something else), reactive
+layout(rgba16f) uniform writeonly image2D changed;  // disturbed, relit (-1: the last frame showed something else), reactive
 #if HAS_COVERAGE
 uniform sampler2D coverage;
 layout(rg16f) uniform writeonly image2D coveredAround;  // mean, standard deviation
@@ -25,8 +25,9 @@ void resolve(ivec2 pixel, Row above, Row row, Row below) {
     Seen now = seenAt(pixel, above, row, below);
     vec3 middle = (above.sum + row.sum + below.sum) / 9.0;
     vec3 variance = max((above.squares + row.squares + below.squares) / 9.0 - middle * middle, 0.0);
-    Changed change = changedAt(pixel, steadyLuma(above, row, below), now);
-    imageStore(changed, pixel, roundToHalf(vec4(change.stale, now.follows ? change.relit : -1.0, reactiveAt(pixel), 0.0)));
+    Changed change = changedAt(pixel, steadyLight(above, row, below), now);
+    float relit = now.follows ? change.relit : -1.0;
+    imageStore(changed, pixel, roundToHalf(vec4(change.disturbed, relit, reactiveAt(pixel), 0.0)));
     imageStore(around, pixel, roundToHalf(vec4(middle, now.moved.x)));
     imageStore(spread, pixel, roundToHalf(vec4(sqrt(variance), now.moved.y)));
 #if HAS_COVERAGE

@@ -70,9 +70,9 @@ struct Shown {
     vec3 variance;
     vec2 moved;     // pixels of the output
     bool follows;   // the last frame showed the same surface
-    float stale;    // 0 to 1: the neighbourhood has changed; -1: it cannot have
-    float relit;    // factor of that change
-    float reactive;  // share of the history that is given up
+    float disturbed;  // as in Changed
+    float relit;      // as in Changed
+    float reactive;   // share of the history that is given up
 #if HAS_COVERAGE
     float covered;
     float coveredMiddle;
@@ -96,9 +96,9 @@ void accumulate(ivec2 pixel, Shown now) {
     float stretch = exposedStretch(toneCompress(history.mean.rgb).x);
     differed *= vec2(stretch * stretch, stretch);
     float stale = staleness(staleShare(differed.y, differed.x, now.middle.x), pixelStaleLimits);
-    float trust = still * (1.0 - stale);
-    float unchanged = min(1.0 - now.stale, 1.0);
-    float variance = trust * unchanged * differed.x;
+    float disturbed = max(now.disturbed, 0.0);
+    float trust = still * (1.0 - stale) * (1.0 - disturbed);
+    float variance = trust * differed.x;
 
     vec3 held = toneCompress(before.rgb);
     float allowed = params.settings.clip * mix(allowance.x, allowance.y, still);
@@ -116,8 +116,8 @@ void accumulate(ivec2 pixel, Shown now) {
     share = min(share, halfCovered / max(abs(history.covered - now.coveredMiddle), halfCovered));
 #endif
     // At rest, only a sample of the pixel's own area can tell that it changed: neighbours may have missed a thin bar.
-    share = mix(share, 1.0, trust * unchanged * (1.0 - now.inside));
-    share = now.stale >= 0.0 && params.settings.clip > 0.0 ? share : 1.0;
+    share = mix(share, 1.0, trust * (1.0 - now.inside));
+    share = now.disturbed >= 0.0 && params.settings.clip > 0.0 ? share : 1.0;
     vec3 clipped = mix(now.middle, held, share);
     vec3 kept = share < 1.0 ? toneExpand(clipped) : before.rgb;
 #if HAS_COVERAGE
@@ -125,12 +125,12 @@ void accumulate(ivec2 pixel, Shown now) {
 #endif
 
     float most = mix(float(params.settings.framesInMotion), float(params.settings.frames), still);
-    float fresh = still > 0.0 && now.stale >= 0.0 && params.settings.clip > 0.0 ? 1.0 - stale : 1.0;
-    float lasting = before.a * share * fresh * (1.0 - now.reactive);
+    float fresh = still > 0.0 && now.disturbed >= 0.0 && params.settings.clip > 0.0 ? 1.0 - stale : 1.0;
+    float lasting = before.a * share * fresh * (1.0 - now.reactive) * (1.0 - disturbed);
     float weight = now.near + (now.inside - now.near) * still * min(lasting, 1.0);
     float frames = min(lasting, most - weight) + weight;
-    float part = weight / frames;
-    bool first = frames <= weight;
+    float part = max(weight / frames, disturbed);
+    bool first = part >= 1.0;
     vec3 sum = first ? shown : mix(kept, shown, part);
     uint random = hashPixel(uvec2(pixel), 0u, params.frame);
     imageStore(mean, pixel, vec4(ditherToHalf(clampToHalf(sum), random), frames));

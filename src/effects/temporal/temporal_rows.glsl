@@ -10,16 +10,22 @@
 #include "shaders/tone_compressed.glsl"
 
 layout(constant_id = 0) const uint isReactive = 0u;
+layout(constant_id = 1) const uint hasBaseColor = 0u;
 uniform sampler2D reactive;
+uniform sampler2D baseColor;  // as in GBuffer
 
 float reactiveAt(ivec2 pixel) { return isReactive != 0u ? texelFetch(reactive, pixel, 0).r : 0.0; }
+
+const float darkest = 0.05;     // base colour that tells light from texture; darker things shine by reflections
+const float sameSurface = 0.1;  // of the reversed depth
 
 // Three pixels side by side.
 struct Row {
     vec3 middle;   // linear
     vec3 sum;      // tone-compressed
     vec3 squares;
-    float steady;  // luma of the linear radiance, weighted by steadyWeights
+    vec3 light;    // of each: lightLuma
+    vec3 depths;   // of each: reversed depth
     float nearest;  // reversed depth
     ivec2 at;       // of that
     float own;      // reversed depth of the middle pixel
@@ -37,17 +43,47 @@ vec3 steadyWeights(float jitter) {
     return vec3(0.5 * (0.5 - at) * (0.5 - at), 0.75 - at * at, 0.5 * (0.5 + at) * (0.5 + at));
 }
 
-float steadyLuma(Row above, Row row, Row below) {
-    return dot(steadyWeights(params.jitter.y), vec3(above.steady, row.steady, below.steady));
+// Luma of the light that falls on a pixel's surface, without its texture, which jitter changes.
+float lightLuma(vec3 c, ivec2 at) {
+    float luma = dot(c, vec3(0.25, 0.5, 0.25));
+    if (hasBaseColor == 0u) {
+        return luma;
+    }
+    vec3 root = texelFetch(baseColor, at, 0).rgb;
+    return luma / max(dot(root * root, vec3(0.25, 0.5, 0.25)), darkest);
+}
+
+vec3 onSurface(vec3 depths, float own) {
+    return vec3(lessThanEqual(abs(depths - own), vec3(sameSurface * own)));
+}
+
+vec3 weightedSums(vec3 weights, vec3 values) {
+    vec3 weighted = weights * values;
+    return vec3(dot(weights, vec3(1.0)), dot(weighted, vec3(1.0)), dot(weighted, values));
+}
+
+// Of lightLuma over the 3x3 pixels: the mean, and the relative deviation of those that show the middle one's surface. The
+// mean counts all, as jitter makes pixels at silhouettes show now this surface, now that.
+vec2 steadyLight(Row above, Row row, Row below) {
+    vec3 x = steadyWeights(params.jitter.x);
+    vec3 y = steadyWeights(params.jitter.y);
+    vec3 upper = x * y.x;
+    vec3 middle = x * y.y;
+    vec3 lower = x * y.z;
+    float mean = dot(upper, above.light) + dot(middle, row.light) + dot(lower, below.light);
+    upper *= onSurface(above.depths, row.own);
+    middle *= onSurface(row.depths, row.own);
+    lower *= onSurface(below.depths, row.own);
+    vec3 sums = weightedSums(upper, above.light) + weightedSums(middle, row.light) + weightedSums(lower, below.light);
+    vec2 moments = sums.yz / sums.x;
+    return vec2(mean, sqrt(max(moments.y - moments.x * moments.x, 0.0)) / max(moments.x, 1e-6));
 }
 
 Row loadRow(ivec2 pixel) {
-    vec3 weights = steadyWeights(params.jitter.x);
     ivec2 last = ivec2(params.size) - 1;
     Row row;
     row.sum = vec3(0.0);
     row.squares = vec3(0.0);
-    row.steady = 0.0;
     row.nearest = -1.0;
 #if HAS_COVERAGE
     row.covered = texelFetch(coverage, clamp(pixel, ivec2(0), last), 0).r;
@@ -61,8 +97,9 @@ Row loadRow(ivec2 pixel) {
         vec3 t = toneCompress(c);
         row.sum += t;
         row.squares += t * t;
-        row.steady += weights[x + 1] * dot(c, vec3(0.25, 0.5, 0.25));
+        row.light[x + 1] = lightLuma(c, at);
         float d = texelFetch(depth, at, 0).r;
+        row.depths[x + 1] = d;
         row.own = x == 0 ? d : row.own;
         row.at = d > row.nearest ? at : row.at;
         row.nearest = max(d, row.nearest);

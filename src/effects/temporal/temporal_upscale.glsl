@@ -60,7 +60,7 @@ void main() {
     now.blurred = sum / total;
     vec3 change = imageLoad(changed, nearest).rgb;
     now.follows = change.y >= 0.0;
-    now.stale = change.x;
+    now.disturbed = change.x;
     now.relit = change.y;
     now.reactive = change.z;
     now.inside = all(lessThanEqual(away, vec2(0.5))) ? 1.0 : 0.0;
