@@ -442,8 +442,8 @@ typedef struct RefletFrameInfo {
 } RefletFrameInfo;
 
 /**
- * Jitter for a frame, as RefletFrameInfo::jitter wants it: a low-discrepancy sequence (R2; M. Roberts, The Unreasonable
- * Effectiveness of Quasirandom Sequences, 2018).
+ * Jitter for a frame, as RefletFrameInfo::jitter wants it: a low-discrepancy sequence, of which four frames from a
+ * multiple of four have one sample in each quarter of a pixel (Owen-scrambled Sobol').
  */
 REFLET_API void refletJitter(uint32_t frameIndex, float jitter[2]);
 

@@ -1,14 +1,24 @@
 // Subpixel jitter offsets and jittered views.
 #include "effects/jitter.h"
 
-#include <cmath>
+#include "base/sobol.h"
 
 namespace reflet {
 
+namespace {
+
+// Moved so that sample 0 is in the middle; exclusive or keeps what lies in a cell of a grid together.
+// reversed: bits of the sample.
+float offset(uint32_t reversed, uint32_t seed) {
+    const uint32_t moved = reverseBits(owenScrambled(reversed, seed) ^ owenScrambled(0, seed)) ^ 0x80000000U;
+    return static_cast<float>(moved * 0x1p-32 - 0.5);
+}
+
+}  // namespace
+
 vec2 subpixelJitter(uint32_t index) {
-    constexpr double step[] = {0.7548776662466927, 0.5698402909980532};
-    const auto at = [&](double s) { return static_cast<float>(std::fmod(0.5 + index * s, 1.0) - 0.5); };
-    return {at(step[0]), at(step[1])};
+    // Of 40,000 pairs of seeds one whose first 4 to 64 samples are far from one another.
+    return {offset(index, 0x91b29d53U), offset(reverseBits(sobolSecond(reverseBits(index))), 0x986c22dbU)};
 }
 
 void applyJitter(ViewParams& view, const vec2& jitter, const vec2& previousJitter) {

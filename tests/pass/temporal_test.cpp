@@ -130,7 +130,7 @@ TEST_F(Temporal, AtRestItConvergesToTheMeanOverThePixelsArea) {
     RecordProperty("first", std::to_string(first));
     RecordProperty("rested", std::to_string(rested));
     EXPECT_LT(rested, 0.07 * first) << rested << " of " << first;  // the mean of 32 samples: 0.04
-    for (uint32_t i = 32; i < 96; ++i) {                           // and it stays there
+    for (uint32_t i = 32; i < 128; ++i) {                          // and it stays there
         last = run.add([&](uvec2 p) { return MadeUpPixel{patternAt(vec2(p) + 0.5F + subpixelJitter(i))}; });
     }
     EXPECT_LT(errorOf(last, vec2(0.0F)), 1.2 * rested);
@@ -159,12 +159,20 @@ TEST_F(Temporal, APictureThatMovesByWholePixelsIsTheSameTexelsAgain) {
 }
 
 TEST_F(Temporal, APictureThatGlidesIsNearerToTheTruthThanItsFramesAre) {
-    for (const vec2 motion : {vec2(0.3F, 0.1F), vec2(1.5F, 0.5F), vec2(-3.7F, 2.2F)}) {
+    struct Case {
+        vec2 motion;
+        double limit;
+    };
+    // Four pixels a frame are too many for thin bars: disocclusions cover more than half of them. At half a pixel a
+    // frame samples meet the same half of what moves, as successive jitter alternates between halves.
+    for (const auto& [motion, limit] : {Case{{0.3F, 0.1F}, 0.35}, Case{{1.5F, 0.5F}, 0.6}, Case{{-3.7F, 2.2F}, 0.5}}) {
         TemporalRun run(device(), size);
         std::vector<vec4> last;
         std::vector<vec4> plain;
-        constexpr uint32_t frames = 16;
+        constexpr uint32_t frames = 52;
         vec2 moved(0.0F);
+        double with = 0.0;  // of the last frames: the error of one depends on its jitter
+        double without = 0.0;
         for (uint32_t i = 0; i < frames; ++i) {
             moved = float(i) * motion;
             plain.clear();
@@ -173,13 +181,11 @@ TEST_F(Temporal, APictureThatGlidesIsNearerToTheTruthThanItsFramesAre) {
                 plain.emplace_back(pixel.radiance, 1.0F);
                 return pixel;
             });
+            with += i + 32 >= frames ? errorOf(last, moved, 4) : 0.0;
+            without += i + 32 >= frames ? errorOf(plain, moved, 4) : 0.0;
         }
-        const double with = errorOf(last, moved, 4);
-        const double without = errorOf(plain, moved, 4);
         RecordProperty("with", std::to_string(with));
-        // Four pixels a frame are too many for thin bars: disocclusions cover more than half of them.
-        EXPECT_LT(with, (glm::length(motion) > 4.0F ? 0.5 : 0.35) * without)
-            << motion.x << ": " << with << " of " << without;
+        EXPECT_LT(with, limit * without) << motion.x << ": " << with << " of " << without;
     }
 }
 
@@ -336,17 +342,19 @@ TEST_F(Upscaling, APictureThatGlidesIsNearerToTheTruthThanTheFirstFrame) {
             double first = 0.0;
             std::vector<vec4> last;
             vec2 moved(0.0F);
-            for (uint32_t i = 0; i < 24; ++i) {
+            double with = 0.0;  // mean of the last frames
+            for (uint32_t i = 0; i < 64; ++i) {
                 moved = float(i) * motion;
                 last = run.add([&](uvec2 p) {
                     return MadeUpPixel{patternAt(placeOf(p, i, scale) - moved), motion * scale, 0.5F};
                 });
                 first = i == 0 ? errorOf(last, moved, 4) : first;
+                with += i >= 16 ? errorOf(last, moved, 4) / 48.0 : 0.0;
             }
-            const double with = errorOf(last, moved, 4);
             RecordProperty("glides_" + std::to_string(scale) + "_" + std::to_string(motion.x),
                            std::to_string(with / first));
-            EXPECT_LT(with, 0.6 * first) << scale << ", " << motion.x << ": " << with << " of " << first;
+            EXPECT_LT(with, (scale > 0.5F ? 0.8 : 0.6) * first)
+                << scale << ", " << motion.x << ": " << with << " of " << first;
         }
     }
 }
