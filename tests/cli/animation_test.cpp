@@ -64,7 +64,7 @@ protected:
         write("late.json", R"({"time": 1.5})");
     }
     [[nodiscard]] std::string picture(const std::string& scene, const Arguments& more) const {
-        Arguments all{"-o", "picture.exr", "--environment", "none"};
+        Arguments all{"-o", "picture.exr", "--environment", "none", "--preset", "direct"};
         all.insert(all.end(), more.begin(), more.end());
         EXPECT_TRUE(quietSuccess(render(scene, all)));
         return read("picture.exr");

@@ -41,13 +41,14 @@ TEST_F(Hostile, DeeplyNestedJsonIsAnErrorWhereverItIsRead) {
             EXPECT_TRUE(refused(withJson(option, json), failed, {"x.json", "nested more than 128"})) << option;
         }
     }
-    ASSERT_EQ(render("builtin:cubes", {"--frames", "2", "-o", "b_#.png"}).status, 0);
+    ASSERT_EQ(render("builtin:cubes", {"--preset", "direct", "--frames", "2", "-o", "b_#.png"}).status, 0);
     const std::vector<std::string> names = files();
     const auto record =
         std::ranges::find_if(names, [](const std::string& n) { return n.ends_with(".json") && n != "x.json"; });
     ASSERT_NE(record, names.end());
     write(*record, "{\"settings\":" + deep + "}");
-    EXPECT_TRUE(refused(render("builtin:cubes", {"--frames", "2", "-o", "b_#.png"}), failed, {"nested more than 128"}));
+    EXPECT_TRUE(refused(render("builtin:cubes", {"--preset", "direct", "--frames", "2", "-o", "b_#.png"}), failed,
+                        {"nested more than 128"}));
 }
 
 TEST_F(Hostile, PipesAndDevicesAreNotReadAsFiles) {
@@ -261,7 +262,8 @@ TEST_F(Hostile, AStackThatIsTooSmallSaysHowToRaiseIt) {
 
 TEST_F(Hostile, AFolderNamedLikeAFrameIsInTheWay) {
     fs::create_directory(path("a_1.png"));
-    EXPECT_TRUE(refused(render("builtin:cubes", {"--frames", "2", "-o", "a_#.png"}), failed, {"a_1.png", "folder"}));
+    EXPECT_TRUE(refused(render("builtin:cubes", {"--preset", "direct", "--frames", "2", "-o", "a_#.png"}), failed,
+                        {"a_1.png", "folder"}));
     EXPECT_TRUE(fs::exists(path("a_0.png")));
 }
 
@@ -272,7 +274,7 @@ TEST_F(Hostile, ATextureThatChangesMakesASequenceAnotherOne) {
                         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
                         "images": [{"uri": "t.png"}, {"uri": "../../../../../../../etc/passwd"}, {"uri": "pipe"}]})");
     ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
-    const Arguments sequence{"--frames", "2", "-o", "a_#.png"};
+    const Arguments sequence{"--preset", "direct", "--frames", "2", "-o", "a_#.png"};
     ASSERT_EQ(render("a.gltf", sequence).status, 0);
     EXPECT_EQ(render("a.gltf", sequence).status, 0);
     writePng(path("t.png"), {2, 2, 3, std::vector<uint8_t>(12, 20)});
@@ -301,7 +303,7 @@ TEST_F(Hostile, ReferencesOfSceneThatAreTooFarSayWhatIs) {
     const Outcome far =
         run({"reference", "far.gltf", "--spp", "1", "--size", "32x18", "--environment", "sky", "-o", "a.png"});
     EXPECT_TRUE(refused(far, failed, {"instance 1 'moon'", "1e+09 m"}));
-    EXPECT_EQ(render("far.gltf", {"-o", "a.png"}).status, 0);
+    EXPECT_EQ(render("far.gltf", {"--preset", "direct", "-o", "a.png"}).status, 0);
 }
 
 TEST_F(Hostile, ReferencesFromTooFarAwaySeeNothing) {  // Embree ends the program at such rays

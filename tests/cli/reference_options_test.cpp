@@ -138,7 +138,7 @@ TEST_F(ReferenceOptions, SamplesThroughThePixelsCentreSeeTheSilhouetteOfTheDepth
 TEST_F(ReferenceOptions, DepthIsTheRenderers) {
     for (const std::string& scene : {cubes, tiltedCube}) {
         ASSERT_TRUE(quietSuccess(reference(scene, {"--spp", "1", "--filter", "center", "-o", "ref.exr"})));
-        ASSERT_TRUE(quietSuccess(render(scene, {"-o", "render.exr", "--aov", "depth"})));
+        ASSERT_TRUE(quietSuccess(render(scene, {"-o", "render.exr", "--preset", "direct", "--aov", "depth"})));
         EXPECT_LT(relativeMse("ref.exr:depth", "render.exr:depth"), 1e-6) << scene;
     }
 }
@@ -173,7 +173,8 @@ TEST_F(ReferenceOptions, AViewFileChangesCameraSunAndEnvironmentAsItDoesForTheRe
               (std::vector<float>{0, 0, 2}));
     EXPECT_NE(a["depth"].data, traced(tiltedCube, {"--spp", "1"})["depth"].data);
     ASSERT_TRUE(quietSuccess(reference(tiltedCube, {"--view-file", "v.json", "--spp", "1", "-o", "ref.exr"})));
-    ASSERT_TRUE(quietSuccess(render(tiltedCube, {"--view-file", "v.json", "-o", "render.exr", "--aov", "depth"})));
+    ASSERT_TRUE(quietSuccess(
+        render(tiltedCube, {"--view-file", "v.json", "-o", "render.exr", "--preset", "direct", "--aov", "depth"})));
     EXPECT_LT(relativeMse("ref.exr:depth", "render.exr:depth"), 1e-6);
     write("dark.json", R"({"sun": {"irradiance": [0, 0, 0]}, "environment": {"radiance": [0, 0, 0]}})");
     EXPECT_EQ(largest(traced(tiltedCube, {"--view-file", "dark.json", "--spp", "2"})[""]), 0.0F);

@@ -51,7 +51,7 @@ TEST_F(ReferenceSequence, ItsFramesAreTheRenderersWithAllLayers) {
         const Arguments same{"--frames", "3", "--path", "orbit", "--first-frame", "7", "--fps", "5", "--time", "0.2"};
         Arguments clean{"--spp", "1", "--filter", "center", "-o", "clean_##.exr", "--overwrite"};
         clean.insert(clean.end(), same.begin(), same.end());
-        Arguments noisy{"--aov", "depth", "-o", "noisy_##.exr", "--overwrite"};
+        Arguments noisy{"--preset", "direct", "--aov", "depth", "-o", "noisy_##.exr", "--overwrite"};
         noisy.insert(noisy.end(), same.begin(), same.end());
         ASSERT_TRUE(quietSuccess(run(arguments(scene, clean))));
         ASSERT_TRUE(quietSuccess(render(scene, noisy)));

@@ -162,7 +162,8 @@ TEST_F(Render, TheLastOfSeveralFramesIsWritten) {
 
 // Over 5 s: stills compile shaders of their own.
 TEST_F(Render, APictureWithoutAPresetIsAStill) {
-    const Outcome still = run({"render", cubes, "--size", "32x18", "--seconds", "1", "-o", "a.png"});
+    const Outcome still =
+        run({"render", cubes, "--size", "32x18", "--seconds", "1", "--set", "shadow.resolution=256", "-o", "a.png"});
     ASSERT_EQ(still.status, 0) << still.err;
     EXPECT_NE(still.err.find("a still, lit by rays through the scene, with all bounces; at most 1 s"),
               std::string::npos);
@@ -179,7 +180,8 @@ TEST_F(Render, APictureWithoutAPresetIsAStill) {
 TEST_F(Render, AStillOfGlassRefractsByTheScreen) {
     const auto traces = [&](const char* setting) {
         EXPECT_EQ(run({"render", "builtin:glass", "--size", "16x9", "--seconds", "0.5", "--timings", "t.json", "--set",
-                       "trace_scene.enabled=false", "--set", "diffuse.rays=0", "--set", setting, "-o", "a.png"})
+                       "trace_scene.enabled=false", "--set", "diffuse.rays=0", "--set", "shadow.resolution=256",
+                       "--set", setting, "-o", "a.png"})
                       .status,
                   0);
         return parseJson(read("t.json")).at("passes").contains("specular.trace_screen");

@@ -96,16 +96,17 @@ TileSums countLamps(const Scene& scene, const Pictures& p) {
     for (unsigned i = 0; i < count.width * count.height; ++i) {
         const uvec2 first = uvec2(i % count.width, i / count.width) * lampTileSide;
         const uvec2 end = glm::min(first + lampTileSide, p.size);
-        unsigned reaching = 0;
-        for (const Lamp& lamp : scene.lamps) {
-            bool any = false;
-            for (unsigned y = first.y; y < end.y && !any; ++y) {
-                for (unsigned x = first.x; x < end.x && !any; ++x) {
-                    any = p.hasSurface(x, y) && reaches(lamp, p.position(x, y), 1e-4F);
+        std::vector<vec3> surfaces;
+        for (unsigned y = first.y; y < end.y; ++y) {
+            for (unsigned x = first.x; x < end.x; ++x) {
+                if (p.hasSurface(x, y)) {
+                    surfaces.push_back(p.position(x, y));
                 }
             }
-            reaching += any ? 1 : 0;
         }
+        const auto reaching = static_cast<unsigned>(std::ranges::count_if(scene.lamps, [&](const Lamp& lamp) {
+            return std::ranges::any_of(surfaces, [&](const vec3& at) { return reaches(lamp, at, 1e-4F); });
+        }));
         const auto listed = static_cast<unsigned>(count.data[i]);
         EXPECT_LE(reaching, listed) << "tile at " << first.x << ", " << first.y;
         sums.reaching += reaching;

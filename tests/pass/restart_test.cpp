@@ -1,9 +1,9 @@
 // A restarted renderer gives the same frames as a new one, whatever it rendered before.
 #include "capture/show.h"
 #include "pass/harness.h"
-#include "renderer/presets.h"
 #include "scene/builtin.h"
 #include "support/device_fixture.h"
+#include "support/swept_scenes.h"
 
 namespace reflet::test::restart_test {
 namespace {
@@ -28,9 +28,7 @@ TEST_F(Restart, SettingsAndViewsFromBeforeLeaveNothing) {
     const View view = defaultView(scene);
     View other = view;
     other.camera.position += vec3(0.5F, 0.2F, 0.0F);
-    Settings plain;
-    applyPreset(plain, "balanced");
-    plain.probes.resolution = 16;  // large ones take most of the time
+    const Settings plain = smallPreset("balanced");
     Settings adaptive = plain;
     adaptive.diffuse.adaptive = 1;
     adaptive.tonemap.exposure = -2.0F;

@@ -1,9 +1,9 @@
 // A renderer makes what its frames need in the first of them, and nothing after that.
 #include "pass/harness.h"
-#include "renderer/presets.h"
 #include "renderer/renderer.h"
 #include "scene/builtin.h"
 #include "support/device_fixture.h"
+#include "support/swept_scenes.h"
 
 namespace reflet::test::steady_state_test {
 namespace {
@@ -17,13 +17,6 @@ protected:
     }
     static VkDeviceSize memory() { return device().memory().used(gpu::MemoryUse::device); }
 
-    static Settings preset(const char* name) {
-        Settings settings;
-        applyPreset(settings, name);
-        settings.probes.resolution = 16;  // large ones take most of the time
-        return settings;
-    }
-
     Scene scene_ = findBuiltinScene("cornell")->make();
     View view_ = defaultView(scene_);
 };
@@ -32,7 +25,7 @@ protected:
 TEST_F(SteadyState, MakesNothing) {
     for (const char* name : {"fast", "balanced", "quality", "hybrid"}) {
         Renderer renderer(device(), scene_, [](const std::string&) {});
-        const Settings settings = SteadyState::preset(name);
+        const Settings settings = smallPreset(name);
         renderFrames(renderer, view_, {48, 27}, settings, 6);  // histories swap, and lend their memory
         const gpu::ObjectCounts made = device().counts();
         renderFrames(renderer, view_, {48, 27}, settings, 3);
@@ -43,7 +36,7 @@ TEST_F(SteadyState, MakesNothing) {
 // Over 5 s: the preset compiles its own shaders.
 TEST_F(SteadyState, IsRecordedByTheLastFramesPlan) {
     Renderer renderer(device(), scene_, [](const std::string&) {});
-    const Settings settings = preset("balanced");
+    const Settings settings = smallPreset("balanced");
     renderer.orderPasses(gpu::PassOrder::byLevel);  // as on GPUs
     renderFrames(renderer, view_, {48, 27}, settings, 4);
     for (int i = 0; i < 2; ++i) {
@@ -58,7 +51,7 @@ TEST_F(SteadyState, IsRecordedByTheLastFramesPlan) {
 TEST_F(SteadyState, TwoViewsInTurnMakeNothing) {
     Renderer one(device(), scene_, [](const std::string&) {});
     Renderer other(device(), scene_, [](const std::string&) {});
-    const Settings settings = preset("fast");
+    const Settings settings = smallPreset("fast");
     gpu::ObjectCounts made;
     for (int i = 0; i < 9; ++i) {
         renderFrames(one, view_, {48, 27}, settings, 1);
@@ -70,7 +63,7 @@ TEST_F(SteadyState, TwoViewsInTurnMakeNothing) {
 
 TEST_F(SteadyState, ManySizesLeaveNoMemoryBehind) {
     Renderer renderer(device(), scene_, [](const std::string&) {});
-    const Settings settings = preset("fast");
+    const Settings settings = smallPreset("fast");
     renderFrames(renderer, view_, {48, 27}, settings, 5);
     const VkDeviceSize before = memory();
     for (uint32_t i = 0; i < 10; ++i) {

@@ -1,11 +1,14 @@
 #pragma once
 
+#include "renderer/presets.h"
+#include "renderer/settings.h"
 #include "scene/builtin.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace reflet::test {
@@ -21,6 +24,17 @@ inline std::vector<std::string> sweptScenes() {
     std::ranges::transform(builtinScenes(), std::back_inserter(all),
                            [](const BuiltinScene& scene) { return std::string(scene.name); });
     return all;
+}
+
+/// A preset's settings, but for the sides of probes and shadow maps: large ones take most of the time of a small frame.
+/// Their ends are swept apart.
+inline Settings smallPreset(std::string_view name) {
+    Settings settings;
+    applyPreset(settings, name);
+    settings.probes.resolution = 16;
+    settings.shadow.resolution = std::min(settings.shadow.resolution, 256U);
+    settings.shadow.lampResolution = std::min(settings.shadow.lampResolution, 64U);
+    return settings;
 }
 
 /// A scene's name as part of a test's name.
