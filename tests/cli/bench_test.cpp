@@ -13,8 +13,8 @@ namespace {
 
 class BenchTest : public ProgramTest {
 protected:
-    /// A quick `reflet bench builtin:cubes` that writes its numbers to out.json. Large probes and measuring the
-    /// bandwidth would take longer than all else.
+    /// A quick `reflet bench builtin:cubes` that writes its numbers to out.json. Large probes, large shadow maps and
+    /// measuring the bandwidth would take longer than all else.
     [[nodiscard]] Outcome bench(const Arguments& more, bool bandwidth = false) const {
         Arguments all{"bench",         "builtin:cubes",
                       "--first",       "2",
@@ -23,7 +23,8 @@ protected:
                       "--json",        "out.json",
                       "--truth-spp",   "2",
                       "--truth-cache", "truths",
-                      "--set",         "probes.resolution=16"};
+                      "--set",         "probes.resolution=16",
+                      "--set",         "shadow.resolution=256"};
         if (!bandwidth) {
             all.emplace_back("--no-bandwidth");
         }

@@ -168,8 +168,8 @@ TEST_F(Render, APictureWithoutAPresetIsAStill) {
     EXPECT_NE(still.err.find("a still, lit by rays through the scene, with all bounces; at most 1 s"),
               std::string::npos);
     EXPECT_EQ(readBitmap(path("a.png")).width, 32U);
-    const Outcome draft =
-        run({"render", cubes, "--size", "32x18", "--effort", "draft", "--set", "probes.resolution=16", "-o", "b.png"});
+    const Outcome draft = run({"render", cubes, "--size", "32x18", "--effort", "draft", "--set", "probes.resolution=16",
+                               "--set", "shadow.resolution=256", "-o", "b.png"});
     ASSERT_EQ(draft.status, 0) << draft.err;
     EXPECT_NE(draft.err.find("a still, lit by the screen and probes; at most 8 s"), std::string::npos);
     EXPECT_TRUE(quietSuccess(run({"render", cubes, "--size", "32x18", "--preset", "plain", "-o", "c.png"})));

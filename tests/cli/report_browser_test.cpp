@@ -62,8 +62,9 @@ protected:
         if (IsSkipped()) {
             return;
         }
-        ASSERT_TRUE(quietSuccess(run({"report", "builtin:cubes", "-o", "out", "--size", "64x36", "--spp", "2",
-                                      "--frames", "2", "--set", "probes.resolution=16", "--preset", "fast,direct"})));
+        ASSERT_TRUE(quietSuccess(
+            run({"report", "builtin:cubes", "-o", "out", "--size", "64x36", "--spp", "2", "--frames", "2", "--set",
+                 "probes.resolution=16", "--set", "shadow.resolution=256", "--preset", "fast,direct"})));
     }
 
     /// Writes a copy of the page with something added at its end, whose script its policy allows, or does not.

@@ -97,7 +97,8 @@ TEST_F(ReportTest, AVariantIsAPresetWithSettingsOverIt) {
 }
 
 TEST_F(ReportTest, TheSameCommandGivesTheSameReportExceptForTimes) {
-    const Arguments more{"--preset", "fast", "--seed", "3", "--set", "probes.resolution=16"};
+    const Arguments more{
+        "--preset", "fast", "--seed", "3", "--set", "probes.resolution=16", "--set", "shadow.resolution=256"};
     ASSERT_TRUE(quietSuccess(report({"builtin:cubes"}, more)));
     const nlohmann::json first = withoutTimes(numbers());
     const std::string truth = read("out/cubes-truth.png");
@@ -139,8 +140,8 @@ TEST_F(ReportTest, ScenesOfOneNameKeepTheirPicturesApart) {
 }
 
 TEST_F(ReportTest, WithoutBouncesThePresetWithoutRaysIsNearest) {
-    ASSERT_TRUE(quietSuccess(
-        report({"builtin:cubes"}, {"--preset", "direct,quality", "--bounces", "0", "--set", "probes.resolution=16"})));
+    ASSERT_TRUE(quietSuccess(report({"builtin:cubes"}, {"--preset", "direct,quality", "--bounces", "0", "--set",
+                                                        "probes.resolution=16", "--set", "shadow.resolution=256"})));
     const nlohmann::json scene = numbers()["scenes"][0];
     const double direct = scene["variants"][0]["against_truth"]["relative_mse"];
     const double quality = scene["variants"][1]["against_truth"]["relative_mse"];

@@ -43,7 +43,8 @@ constexpr std::array<uvec2, 3> sizes{{{64, 36}, {50, 40}, {33, 61}}};
 Settings settingsOf(const char* preset, const std::vector<std::string>& assignments) {
     Settings settings;
     applyPreset(settings, preset);
-    settings.probes.resolution = 16;  // large ones take most of the time
+    settings.probes.resolution = 16;  // large ones take most of the time, and twice that with large shadow maps
+    settings.shadow.resolution = 256;
     for (const std::string& assignment : assignments) {
         setSetting(settings, assignment);
     }

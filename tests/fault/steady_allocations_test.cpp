@@ -21,7 +21,8 @@ TEST(SteadyFrame, AllocatesLittle) {
     const View view = defaultView(scene);
     Settings settings;
     applyPreset(settings, "balanced");
-    settings.probes.resolution = 16;  // large ones take most of the time
+    settings.probes.resolution = 16;  // large ones take most of the time, and twice that with large shadow maps
+    settings.shadow.resolution = 256;
     Renderer renderer(device, scene, [](const std::string&) {});
     for (int i = 0; i < 40; ++i) {  // by then its memory has the right size (gpu::Recorder)
         renderer.render(view, {48, 32}, 0, settings);
