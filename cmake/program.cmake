@@ -59,10 +59,14 @@ if(TARGET PkgConfig::IMGUI AND TARGET PkgConfig::GLFW)
     file(GLOB view_shaders CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} src/view/*.vert src/view/*.frag
         src/view/*.comp)
     reflet_shaders(reflet_view refletViewShaders ${view_shaders})
-    # Paths for hot reloading of edited shaders, used if the sources exist at run time.
+    # Paths for hot reloading of edited shaders, used if the sources exist at run time. A package has only `--shaders`:
+    # who has a folder of that name on another machine must not be asked for code.
     list(JOIN glslc_command " " glslc_line)
-    target_compile_definitions(reflet_view PRIVATE REFLET_SHADER_SOURCES="${PROJECT_SOURCE_DIR}/src"
-        REFLET_GLSLC="${glslc_line}")
+    set(shader_sources ${PROJECT_SOURCE_DIR}/src)
+    if(REFLET_PACKAGE)
+        set(shader_sources "")
+    endif()
+    target_compile_definitions(reflet_view PRIVATE REFLET_SHADER_SOURCES="${shader_sources}" REFLET_GLSLC="${glslc_line}")
     target_compile_definitions(reflet_program PRIVATE REFLET_WINDOW)
     target_link_libraries(reflet_program PRIVATE reflet_view)
 else()

@@ -36,6 +36,11 @@ HTML_TIMESTAMP = NO
 HAVE_DOT = NO
 END
     doxygen "$work/Doxyfile"
+    # Doxygen's pages have scripts and styles in them; their search has frames, and evaluates strings.
+    policy="default-src 'none'; script-src 'self' file: 'unsafe-inline' 'unsafe-eval'; \
+style-src 'self' file: 'unsafe-inline'; img-src 'self' file: data:; frame-src 'self' file:; base-uri 'none'; form-action 'none'"
+    find "$site/api" -name '*.html' -exec \
+        sed -i "0,/<head>/s|<head>|<head><meta http-equiv=\"Content-Security-Policy\" content=\"$policy\"/>|" {} +
 fi
 if ((${#gallery[@]})); then
     cp -r "$report" "$site/gallery"

@@ -31,15 +31,9 @@ expect libreflet-dev usr/include/reflet/reflet.h "$lib/libreflet.so" "$lib/pkgco
     "$lib/cmake/reflet/refletConfig.cmake"
 expect python3-reflet usr/lib/python3/dist-packages/reflet/__init__.py usr/lib/python3/dist-packages/reflet/__main__.py \
     usr/share/doc/python3-reflet/copyright
-hardened() {  # file
-    readelf -hW "$1" | grep -q 'Type: *DYN' || { echo "check.sh: $1 is not position independent" >&2; exit 1; }
-    readelf -lW "$1" | grep -q GNU_RELRO && readelf -dW "$1" | grep -q 'NOW' || { echo "check.sh: $1 has no full RELRO" >&2; exit 1; }
-    readelf -sW --dyn-syms "$1" | grep -q __stack_chk_fail || { echo "check.sh: $1 has no stack protector" >&2; exit 1; }
-    readelf -sW --dyn-syms "$1" | grep -q '_chk@GLIBC' || { echo "check.sh: $1 has no fortified calls" >&2; exit 1; }
-}
-hardened "$built/bin/reflet"
-hardened "$(find "$built" -name 'libreflet.so.0' | head -n 1)"
+packaging/hardened.sh full "$built/bin/reflet" "$(find "$built" -name 'libreflet.so.0' | head -n 1)" "$built"/libreflet_{base,scene,effects}.a
 packaging/sbom.sh "$built/packages" >"$built/packages/reflet.spdx"
+packaging/sbom_check.py "$built/packages/reflet.spdx" "$built/packages" "$built"
 if command -v lintian >/dev/null; then
     lintian --fail-on error "${packages[@]}"
 else

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Writes a bill of materials (SBOM, SPDX 2.3, tag-value) of the Debian packages in a folder to standard output: the packages and their
-# files with checksums, the packages that they need to run, and those that were compiled or linked into them.
+# files with checksums, the packages that they need to run, and those that were compiled or linked into them, with licenses.
 #   packaging/sbom.sh [FOLDER]    default: build-package/packages
 # The same packages give the same text: SOURCE_DATE_EPOCH, or the time of the last commit, dates it.
 set -euo pipefail
@@ -9,8 +9,10 @@ folder=${1-build-package/packages}
 packages=("$folder"/*.deb)
 [[ -e "${packages[0]}" ]] || { echo "sbom.sh: there are no packages in $folder; packaging/check.sh makes them" >&2; exit 1; }
 
-# Headers and static libraries whose code is in the packages' files.
-compiled=(libcli11-dev libfmt-dev libglm-dev libimgui-dev libvulkan-dev libvulkan-volk-dev nlohmann-json3-dev)
+# Headers and static libraries whose code is in the packages' files, where no shared library of theirs is needed to run.
+# The test Sbom compares them with what the compiler read.
+compiledLibrary=(libfmt-dev libglm-dev libvulkan-dev nlohmann-json3-dev)
+compiledProgram=("${compiledLibrary[@]}" libcli11-dev libimath-dev libimgui-dev libvulkan-volk-dev)
 epoch=${SOURCE_DATE_EPOCH-$(git log -1 --format=%ct 2>/dev/null || echo 0)}
 version=$(dpkg-deb -f "${packages[0]}" Version)
 id() { printf 'SPDXRef-%s' "${1//[^A-Za-z0-9.-]/-}"; }
@@ -25,14 +27,21 @@ Creator: Tool: packaging/sbom.sh
 Created: $(date -u -d "@$epoch" +%Y-%m-%dT%H:%M:%SZ)
 HEAD
 
+licenseOf() {  # a package of the distribution
+    local source found
+    source=$(dpkg-query -W -f '${source:Package}' "$1" 2>/dev/null || true)
+    found=$(sed -n "s/^${source:-$1} //p" packaging/licenses.txt)
+    echo "${found:-NOASSERTION}"
+}
+
 declare -A known=()
 other() {  # a package of the distribution
     [[ -z ${known[$1]-} ]] || return 0
     known[$1]=1
     local found
     found=$(dpkg-query -W -f '${Version}' "$1" 2>/dev/null || true)
-    printf '\nPackageName: %s\nSPDXID: %s\nPackageVersion: %s\nPackageDownloadLocation: NOASSERTION\nFilesAnalyzed: false\nPackageLicenseDeclared: NOASSERTION\nPackageCopyrightText: NOASSERTION\n' \
-        "$1" "$(id "$1")" "${found:-NOASSERTION}"
+    printf '\nPackageName: %s\nSPDXID: %s\nPackageVersion: %s\nPackageDownloadLocation: NOASSERTION\nFilesAnalyzed: false\nPackageLicenseConcluded: NOASSERTION\nPackageLicenseDeclared: %s\nPackageCopyrightText: NOASSERTION\n' \
+        "$1" "$(id "$1")" "${found:-NOASSERTION}" "$(licenseOf "$1")"
 }
 
 unpacked=$(mktemp -d)
@@ -60,7 +69,11 @@ for package in "${packages[@]}"; do
         other "$needed"
         printf 'Relationship: %s DEPENDS_ON %s\n' "$(id "$name")" "$(id "$needed")"
     done
-    [[ $name == reflet || $name == libreflet? ]] || continue
+    case $name in
+        reflet) compiled=("${compiledProgram[@]}") ;;
+        libreflet?) compiled=("${compiledLibrary[@]}") ;;
+        *) continue ;;
+    esac
     for needed in "${compiled[@]}"; do
         other "$needed"
         printf 'Relationship: %s STATIC_LINK %s\n' "$(id "$name")" "$(id "$needed")"
