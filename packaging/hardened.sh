@@ -4,8 +4,8 @@
 #                                           (RELRO, NOW), no executable stack, no memory both writable and executable
 #   packaging/hardened.sh full FILE...      also stack protector, fortified calls of the C library, no search path and, on
 #                                           x86, marked targets of indirect branches (IBT)
-# A program has stack protector and fortified calls also from static libraries of others; its own archives (.a), with
-# `full`, show what its own code has. The note that tells the kernel of IBT and shadow stacks is wanted of linked files
+# A program has a stack protector also from static libraries of others; its own archives (.a), with `full`, show what its
+# own code has. They need not have a call that can be fortified. The note that tells the kernel of IBT and shadow stacks is wanted of linked files
 # only where the C library's start files have it, as the linker drops it otherwise: Debian 12's have none.
 set -euo pipefail
 kind=${1?linked or full}
@@ -43,21 +43,20 @@ linked() {
     want "has a search path for libraries" lacks '\((RPATH|RUNPATH)\)' "$dynamic"
 }
 
-calls() {  # symbols
-    want "has no stack protector" has '__stack_chk_fail' "$1"
-    want "has no fortified calls" has '_chk(@|$)' "$1"
-}
+protected() { want "has no stack protector" has '__stack_chk_fail' "$1"; }  # symbols
 
 for file; do
     [[ -f $file ]] || { echo "hardened.sh: $file: there is no such file" >&2; exit 1; }
     if [[ $file == *.a ]]; then
-        calls "$(nm -u "$file")"
+        protected "$(nm -u "$file")"
         ! x86 || want "has objects without marked branch targets and shadow stacks" everyMemberHasNote
         continue
     fi
     linked
     [[ $kind == full ]] || continue
-    calls "$(readelf -W --dyn-syms "$file" | awk '{ print $8 }')"
+    symbols=$(readelf -W --dyn-syms "$file" | awk '{ print $8 }')
+    protected "$symbols"
+    want "has no fortified calls" has '_chk(@|$)' "$symbols"
     x86 || continue
     want "has no marked branch targets (-fcf-protection)" marked
     if startHasNote; then
