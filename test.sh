@@ -22,7 +22,7 @@ if ! build; then
 fi
 tests/gltf_validator.sh build || echo "the test against glTF-Validator is skipped"
 built=$SECONDS
-jobs=$((cores + 2)) # tests of the window mostly wait, and those that trace on all cores end at different times
+jobs=$((cores + 1)) # tests of the window mostly wait
 echo "built in $built s; now the tests, $jobs at a time"
 
 logs=build/test-logs

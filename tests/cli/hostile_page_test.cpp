@@ -31,7 +31,7 @@ const std::array<std::string, 3> variantNames{
 const std::array<std::string, 4> sceneNames{
     "\"><img src=x onerror=RUN>",
     "<img src=http:other.invalid>\n'\" & &amp;",
-    "\" autofocus tabindex=0 onfocus=\"RUN",
+    "\" onerror=\"RUN",
     "<link rel=stylesheet href=http:other.invalid><svg onload=RUN>",
 };
 
@@ -125,7 +125,7 @@ protected:
     // Whether something ran or was asked for.
     [[nodiscard]] bool worksAsMarkup(const std::string& name) const {
         write("raw.html", fmt::format("<!doctype html><html><head><title>{0}</title></head><body>"
-                                      "<h2>{0}</h2><input title=\"{0}\"></body></html>",
+                                      "<h2>{0}</h2><img src=none title=\"{0}\"></body></html>",
                                       withScript(name)));
         const Outcome shown = openFile(path("raw.html"), "1280,900");
         return shown.out.find("data-ran=\"yes\"") != std::string::npos || !foreignRequests().empty();
