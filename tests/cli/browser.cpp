@@ -50,13 +50,13 @@ Outcome BrowserTest::openFile(const std::filesystem::path& file, const std::stri
 
 // The log has one event in each line. What the browser asks for itself has another initiator.
 std::vector<std::string> BrowserTest::foreignRequests() const {
-    constexpr std::string_view field = "\"url\":\"";
+    constexpr std::string_view field = R"("url":")";
     std::istringstream lines(read(netLog));
     std::vector<std::string> found;
     size_t events = 0;
     for (std::string line; std::getline(lines, line); ++events) {
         const size_t at = line.find(field);
-        if (line.find("\"initiator\":\"null\"") == std::string::npos || at == std::string::npos) {
+        if (line.find(R"("initiator":"null")") == std::string::npos || at == std::string::npos) {
             continue;
         }
         const std::string url = line.substr(at + field.size(), line.find('"', at + field.size()) - at - field.size());

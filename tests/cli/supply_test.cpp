@@ -18,7 +18,7 @@ Arguments script(const char* name, const Arguments& more) {
 
 class SupplyTest : public ProgramTest {
 protected:
-    void need(std::initializer_list<const char*> programs) const {
+    static void need(std::initializer_list<const char*> programs) {
         for (const char* program : programs) {
             if (!isInstalled(program)) {
                 GTEST_SKIP() << "no " << program << " in PATH";

@@ -35,7 +35,7 @@ double relativeError(const vec3& v, const vec3& truth) {
 class TemporalLight : public DeviceTest {
 protected:
     // Relative MSE in columns [from, to) after `frames` frames of other light, relative to that of the last one alone.
-    double error(float scale, const Light& light, int frames, uint32_t from = 0, uint32_t to = size.x) {
+    static double error(float scale, const Light& light, int frames, uint32_t from = 0, uint32_t to = size.x) {
         const std::vector<vec4> all = pictureAfter(scale, light, -restingFrames, frames);
         const std::vector<vec4> alone = pictureAfter(scale, light, frames - 1, frames);
         double sum = 0.0;
@@ -51,7 +51,7 @@ protected:
     }
 
 private:
-    std::vector<vec4> pictureAfter(float scale, const Light& light, int first, int end) {
+    static std::vector<vec4> pictureAfter(float scale, const Light& light, int first, int end) {
         TemporalRun run(device(), uvec2(glm::round(vec2(size) * scale)), size);
         std::vector<vec4> last;
         for (int i = first; i < end; ++i) {
