@@ -14,7 +14,7 @@ layout(rgba16f) uniform readonly image2D previousSeen;
 layout(rgba16f) uniform writeonly image2D seen;  // distance, own motion, 1: at rest
 layout(rgba16f) uniform readonly image2D previousChanges;
 layout(rgba16f) uniform writeonly image2D changes;
-layout(rgba16f) uniform writeonly image2D changed;  // disturbed, relit (-1: the last frame showed something else), reactive
+layout(rgba16f) uniform writeonly image2D changed;  // disturbed, relit (-1: the last frame showed another surface), reactive
 #if HAS_COVERAGE
 uniform sampler2D coverage;
 layout(rg16f) uniform writeonly image2D coveredAround;  // mean, standard deviation

@@ -1,6 +1,7 @@
 // How the light of a surface's 3x3 neighbourhoods changes from frame to frame. The includer declares params as
 // TemporalParams and the images previousChanges and changes: of the mean of steadyLight over the frames that showed the
-// surface: mean, variance, recent mean difference, and their number, whose fraction is half of the last frame's unevenness.
+// surface: mean, variance, recent mean difference, and their number, whose fraction is half of the unevenness in the last
+// frame.
 #ifndef REFLET_TEMPORAL_CHANGES_GLSL
 #define REFLET_TEMPORAL_CHANGES_GLSL
 
@@ -53,14 +54,14 @@ Changed changedAt(ivec2 pixel, vec2 light, Seen now) {
     float variance = mix(past.y, off * off, 1.0 / frames);
     float recent = mix(past.z, off, recentShare);
     float known = past.a >= fewestFrames ? float(params.mayChange) : 0.0;
-    float stale = known * staleness(staleShare(recent, variance, luma), staleLimits);
+    float stale = known * ramp(staleShare(recent, variance, luma), staleLimits);
     float lit = past.x + off * stale;
     imageStore(changes, pixel,
                roundToHalf(vec4(lit + (luma - lit) / frames, variance, recent, frames + 0.5 * uneven)));
     float relit = past.a > 0.0 && stale > 0.0 ? clamp(lit / max(past.x, 1e-6), 1.0 / mostRelit, mostRelit) : 1.0;
     float most = max(uneven, unevenBefore);
-    float edge = staleness(most, edgeLimits) * staleness(abs(off) / max(most * max(luma, past.x), 1e-6), stepLimits);
-    float other = staleness(abs(log2(relit)), otherLight);
+    float edge = ramp(most, edgeLimits) * ramp(abs(off) / max(most * max(luma, past.x), 1e-6), stepLimits);
+    float other = ramp(abs(log2(relit)), otherLight);
     return Changed(stale * max(edge, other), relit);
 }
 

@@ -1,6 +1,6 @@
 // The history of temporal antialiasing: reprojection, clipping, and the mean with what a frame shows.
 // The includer declares params.settings, frame and exposureChange, the constants allowance
-// (factors on the clip limits in motion and at rest) and staleness, and of the output's size the images previousMean,
+// (factors on the clip limits in motion and at rest) and pixelStaleLimits, and of the output's size the images previousMean,
 // previousDeviations, mean and deviations, with HAS_COVERAGE also previousCoverage and meanCoverage.
 #ifndef REFLET_TEMPORAL_HISTORY_GLSL
 #define REFLET_TEMPORAL_HISTORY_GLSL
@@ -95,7 +95,7 @@ void accumulate(ivec2 pixel, Shown now) {
     vec2 differed = still > 0.0 ? imageLoad(previousDeviations, ivec2(at + 0.5)).rg : vec2(0.0);
     float stretch = exposedStretch(toneCompress(history.mean.rgb).x);
     differed *= vec2(stretch * stretch, stretch);
-    float stale = staleness(staleShare(differed.y, differed.x, now.middle.x), pixelStaleLimits);
+    float stale = ramp(staleShare(differed.y, differed.x, now.middle.x), pixelStaleLimits);
     float disturbed = max(now.disturbed, 0.0);
     float trust = still * (1.0 - stale) * (1.0 - disturbed);
     float variance = trust * differed.x;

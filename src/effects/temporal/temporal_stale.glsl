@@ -10,7 +10,7 @@ float staleShare(float recent, float variance, float luma) {
     return recent * recent / (variance + 1e-4 * luma * luma + 1e-8);
 }
 
-// 0: not stale, up to limits.x; 1: stale, from limits.y.
-float staleness(float share, vec2 limits) { return clamp((share - limits.x) / (limits.y - limits.x), 0.0, 1.0); }
+// 0 up to limits.x, 1 from limits.y.
+float ramp(float v, vec2 limits) { return clamp((v - limits.x) / (limits.y - limits.x), 0.0, 1.0); }
 
 #endif
