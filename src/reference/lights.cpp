@@ -82,7 +82,7 @@ Lights::Lights(const RayScene& rays, const View& view)
 
 void Lights::collectTriangles() {
     const Scene& scene = rays_.scene();
-    std::vector<double> weights;
+    std::vector<TriangleLight> lights;
     emissiveIndex_.resize(scene.instances.size());
     for (uint32_t i = 0; i < scene.instances.size(); ++i) {
         const Material& material = rays_.material(i);
@@ -93,13 +93,16 @@ void Lights::collectTriangles() {
         const auto count = static_cast<uint32_t>(scene.meshes[scene.instances[i].mesh].indices.size() / 3);
         for (uint32_t k = 0; k < count; ++k) {
             const Triangle t = rays_.triangle(i, k);
-            const float area = 0.5F * glm::length(glm::cross(t.b - t.a, t.c - t.a));
+            const vec3 across = glm::cross(t.b - t.a, t.c - t.a);
+            const float area = 0.5F * glm::length(across);
             emissiveIndex_[i].push_back(static_cast<uint32_t>(emissive_.size()));
             emissive_.push_back({i, k, area});
-            weights.push_back(double(area) * strength);
+            const vec3 outward = rays_.mirrored(i) ? -across : across;
+            lights.push_back({t.a, t.b, t.c, area > 0.0F ? outward / (2.0F * area) : vec3(0.0F), material.doubleSided,
+                              area * strength});
         }
     }
-    triangles_ = Distribution(weights);
+    tree_ = LightTree(lights);
 }
 
 LightSample Lights::drawSun(const vec2& u) const {
@@ -153,8 +156,11 @@ LightSample Lights::drawEmitter(const SurfacePoint& point, float choice, const v
 
 LightSample Lights::drawTriangle(const SurfacePoint& point, float choice, const vec2& u) const {
     LightSample s;
-    const size_t index = triangles_.draw(choice);
-    const EmissiveTriangle& emissive = emissive_[index];
+    const auto chosen = tree_.draw(receiver(point), choice);
+    if (!chosen) {
+        return s;
+    }
+    const EmissiveTriangle& emissive = emissive_[chosen->light];
     const Triangle t = rays_.triangle(emissive.instance, emissive.triangle);
     const vec2 at = uniformBarycentric(u);
     const vec3 place = t.a * (1.0F - at.x - at.y) + t.b * at.x + t.c * at.y;
@@ -168,23 +174,32 @@ LightSample Lights::drawTriangle(const SurfacePoint& point, float choice, const 
     s.onSurface = true;
     s.distance = distance;
     s.toLight = toLight / distance;
-    s.pdf = emitterPdf(point.position, emitter);
+    s.pdf = trianglePdf(point.position, emitter, chosen->probability);
     s.light = s.pdf > 0.0F ? emitter.emission * (coverageAt(rays_, s.hit) / s.pdf) : vec3(0.0F);
     return s;
 }
 
-float Lights::emitterPdf(const vec3& from, const SurfacePoint& emitter) const {
+float Lights::trianglePdf(const vec3& from, const SurfacePoint& emitter, float chance) const {
+    const float area = emissive_[emissiveIndex_[emitter.hit.instance][emitter.hit.triangle]].area;
+    const vec3 offset = emitter.position - from;
+    const float cosine = glm::dot(emitter.geometricNormal, emitter.toOrigin);
+    if (!(cosine > 1e-6F) || !(area > 0.0F)) {
+        return 0.0F;
+    }
+    return (1.0F - environmentChance_) * chance / area * glm::dot(offset, offset) / cosine;
+}
+
+float Lights::emitterPdf(const LightReceiver& from, const SurfacePoint& emitter) const {
     const std::vector<uint32_t>& index = emissiveIndex_[emitter.hit.instance];
     if (index.empty()) {
         return 0.0F;
     }
-    const uint32_t i = index[emitter.hit.triangle];
-    const vec3 offset = emitter.position - from;
-    const float cosine = glm::dot(emitter.geometricNormal, emitter.toOrigin);
-    if (!(cosine > 1e-6F) || !(emissive_[i].area > 0.0F)) {
-        return 0.0F;
-    }
-    return (1.0F - environmentChance_) * triangles_.chance(i) / emissive_[i].area * glm::dot(offset, offset) / cosine;
+    return trianglePdf(from.position, emitter, tree_.probability(from, index[emitter.hit.triangle]));
+}
+
+LightReceiver Lights::receiver(const SurfacePoint& point) {
+    const bool throughIt = point.transmission > 0.0F || point.diffuseTransmissionShare > 0.0F;
+    return {point.position, throughIt ? vec3(0.0F) : point.geometricNormal};
 }
 
 }  // namespace reflet

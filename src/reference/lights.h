@@ -2,6 +2,7 @@
 #pragma once
 
 #include "reference/bsdf.h"
+#include "reference/light_tree.h"
 #include "reference/ray_scene.h"
 
 namespace reflet {
@@ -45,7 +46,7 @@ public:
 
     [[nodiscard]] bool hasSun() const { return sunIrradiance_ != vec3(0.0F); }
     [[nodiscard]] bool hasLamps() const { return !lamps_.empty(); }
-    [[nodiscard]] bool hasSampledEmitters() const { return !triangles_.empty() || environmentChance_ > 0.0F; }
+    [[nodiscard]] bool hasSampledEmitters() const { return !tree_.empty() || environmentChance_ > 0.0F; }
 
     /// Samples the sun's disk. The irradiance is that of a surface that faces the sampled point, scaled so that a
     /// surface that faces the sun's centre receives the sun's irradiance from the whole disk.
@@ -59,12 +60,17 @@ public:
     [[nodiscard]] vec3 environment(const vec3& direction) const;
     /// Pdfs of drawEmitter for what a scattered ray has hit.
     [[nodiscard]] float environmentPdf(const vec3& direction) const;
-    [[nodiscard]] float emitterPdf(const vec3& from, const SurfacePoint& emitter) const;
+    [[nodiscard]] float emitterPdf(const LightReceiver& from, const SurfacePoint& emitter) const;
+
+    /// What drawEmitter samples for.
+    [[nodiscard]] static LightReceiver receiver(const SurfacePoint& point);
 
 private:
     void collectTriangles();
     void prepareEnvironment();
     [[nodiscard]] LightSample drawTriangle(const SurfacePoint& point, float choice, const vec2& u) const;
+    // chance: of the triangle.
+    [[nodiscard]] float trianglePdf(const vec3& from, const SurfacePoint& emitter, float chance) const;
     [[nodiscard]] LightSample drawEnvironment(float choice, const vec2& u) const;
 
     const RayScene& rays_;
@@ -81,9 +87,9 @@ private:
     };
     std::vector<EmissiveTriangle> emissive_;
     std::vector<std::vector<uint32_t>> emissiveIndex_;  ///< by instance (empty: not emissive) and triangle
-    Distribution triangles_;
-    Distribution texels_;             ///< of the environment's image
-    float environmentChance_ = 0.0F;  ///< probability that drawEmitter chooses the environment image
+    LightTree tree_;                                    ///< over emissive_
+    Distribution texels_;                               ///< of the environment's image
+    float environmentChance_ = 0.0F;                    ///< probability that drawEmitter chooses the environment image
 };
 
 }  // namespace reflet

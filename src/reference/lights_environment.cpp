@@ -34,7 +34,7 @@ void Lights::prepareEnvironment() {
         }
     }
     texels_ = Distribution(weights);
-    environmentChance_ = texels_.empty() || environment_.intensity == 0.0F ? 0.0F : triangles_.empty() ? 1.0F : 0.5F;
+    environmentChance_ = texels_.empty() || environment_.intensity == 0.0F ? 0.0F : tree_.empty() ? 1.0F : 0.5F;
 }
 
 LightSample Lights::drawEnvironment(float choice, const vec2& u) const {

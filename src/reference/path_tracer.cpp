@@ -304,7 +304,7 @@ bool PathTracer::step(Walk& walk, const Bsdf& bsdf, bool spent) const {
     if (s.crosses) {
         cross(walk.media, walk.point);
     }
-    const vec3 from = walk.point.position;
+    const LightReceiver from = Lights::receiver(walk.point);
     const auto hit = rays_.intersect(walk.counted({walk.point.rayOrigin(s.direction), s.direction}), RayKind::light);
     const auto weight = [&](float otherPdf) { return s.pdf > 0.0F ? s.pdf / (s.pdf + otherPdf) : 1.0F; };
     if (!hit) {
