@@ -6,7 +6,7 @@
 
 SHARED_BEGIN
 
-// As many as fit into Vulkan's guaranteed uniform buffer size (16 KiB).
+// About as many as fit into Vulkan's guaranteed uniform buffer size (16 KiB).
 const uint maxLamps = 200;
 
 const uint lampPoint = 0;
@@ -22,8 +22,8 @@ const float reflectedSunFar = 150.0;
 const uint noLampShadow = 0xFFFFFFFFu;
 
 // KHR_lights_punctual. An emitter has other values in members that mean nothing to it: its radiant intensity in the
-// direction w is that of `intensity` times max(dot(toLamp, w) + length(S * w), 0). It lights the diffuse lobe only:
-// reflections show the surfaces themselves. Packed by packEmitterShape.
+// direction w is that of `intensity` times max(dot(toLamp, w) + length(S * w), 0). It lights the diffuse lobe; smooth
+// reflections show the surfaces themselves, rough ones a highlight (shaders/emitter_highlight.glsl).
 // A reflected sun shines as a directional light through the rectangle of its mirror, of which `intensity` is what it
 // sends: of the mirror's centre, position = centre + distance · toLamp. Packed by reflectedSuns.
 struct LampParams {
@@ -38,8 +38,9 @@ struct LampParams {
     float spotOffset;    // emitter: S.zz, S.xy. Reflected: the mirror's normal, packUnitVector
     float cosOuter;      // spot, reflected: cosine of the outer cone angle, beyond which it is dark. Emitter: S.xz,
                          // S.yz
-    float radius;        // of its disk, for soft shadows [m]
-    uint shadow;         // index among the shadow-casting lamps, or noLampShadow
+    vec3 extent;   // emitter: covariance of its points over the square of `radius`: xx, yy, zz, xy, xz, yz as halfs
+    float radius;  // of its disk, for soft shadows [m]
+    uint shadow;   // index among the shadow-casting lamps, or noLampShadow
 };
 
 struct LampBlock {

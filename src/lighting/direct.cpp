@@ -144,9 +144,10 @@ gpu::Image lampShadow(gpu::PassList& f, const ViewContext& in, const LightingSet
 }
 
 DirectLight directLight(gpu::PassList& f, const ViewContext& in, const Surfaces& surfaces, const LightSources& lights) {
-    return reflet::directLight(f, surfaces.g, lights.visibility, in.ggxTable,
-                               {in.view, lights.toSun, lights.sunIrradiance, sunRoughness(lights.sunSlope)},
-                               {lights.lamps, in.environment, in.lambertOnly, in.reflectedSuns && in.forProbe});
+    return reflet::directLight(
+        f, surfaces.g, lights.visibility, in.ggxTable,
+        {in.view, lights.toSun, lights.sunIrradiance, sunRoughness(lights.sunSlope), in.roughestHighlight},
+        {lights.lamps, in.environment, in.lambertOnly, in.reflectedSuns && in.forProbe});
 }
 
 }  // namespace reflet::lighting

@@ -89,12 +89,15 @@ LobeInputs inputsOf(const ViewContext& in, const LightingSettings& settings, uin
             .ambientOcclusion = surfaces.ambientOcclusion,
             .countSteps = settings.traceScreen.countSteps != 0,
             .countHits = settings.traceScreen.countHits != 0,
-            .coneShare = settings.traceScreen.enabled != 0 ? coneShareOnScreen : 0.0F};
+            .coneShare = settings.traceScreen.enabled != 0 ? coneShareOnScreen : 0.0F,
+            .roughestHighlight = in.roughestHighlight};
 }
 
 ScreenImages screenForLobe(const ViewContext& in, uint32_t lobe, ScreenImages seen, bool certainNext) {
     seen.certainNext = certainNext;
-    seen.leavesOutEmitters = in.emitterLamps && lobe == lobeDiffuse;
+    const EmittersAtHits highlighted =
+        in.roughestHighlight > 0.0F ? EmittersAtHits::notHighlighted : EmittersAtHits::all;
+    seen.emitters = in.emitterLamps && lobe == lobeDiffuse ? EmittersAtHits::none : highlighted;
     seen.leavesOutMirrors = in.reflectedSuns && lobe == lobeDiffuse;
     return seen;
 }

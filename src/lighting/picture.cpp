@@ -50,10 +50,11 @@ Light compose(gpu::PassList& f, const ViewContext& in, const LightingSettings& s
         return light;
     }
     const gpu::Image sum = into ? into : f.image("lit", lightFormat, surfaces.g.depth.size);
-    static_cast<LightLayers&>(light) = composite(f,
-                                                 {surfaces.g, parts.direct, parts.diffuse, parts.specular, in.ggxTable,
-                                                  in.lambertOnly, layers, parts.fromEmitters, parts.limits},
-                                                 sum, {in.view, settings.diffuse.gain});
+    static_cast<LightLayers&>(light) =
+        composite(f,
+                  {surfaces.g, parts.direct, parts.diffuse, parts.specular, in.ggxTable, in.lambertOnly, layers,
+                   parts.fromEmitters, parts.highlights, parts.limits},
+                  sum, {in.view, settings.diffuse.gain});
     return light;
 }
 

@@ -19,7 +19,8 @@ struct LightParts {
     gpu::Image direct;
     LobeLight diffuse;
     LobeLight specular;
-    gpu::Image fromEmitters{};  ///< part of `direct` that counts as indirect light
+    gpu::Image fromEmitters{};  ///< part of `direct` that counts as indirect diffuse light
+    gpu::Image highlights{};    ///< part of `direct` that counts as indirect specular light
     gpu::Image limits{};        ///< of the sum, by LightBound; may be none
 };
 

@@ -25,8 +25,10 @@ struct ViewContext {
     bool composes = true;       ///< each frame's light is composited, for the next one's rays to read
     bool emitterLamps =
         false;  ///< lamps stand for what surfaces with materialFlagEmitter emit: diffuse rays leave it out
-    bool reflectedSuns = false;  ///< lamps bring the sun's light by way of smooth mirrors
-    bool forProbe = false;       ///< a probe's view: with reflectedSuns, mirrors do not show the sun itself
+    float roughestHighlight = 0.0F;  ///< the lamps' highlights stand for their reflections up to this roughness
+                                     ///< (shaders/emitter_highlight.glsl); 0: rays find all
+    bool reflectedSuns = false;      ///< lamps bring the sun's light by way of smooth mirrors
+    bool forProbe = false;           ///< a probe's view: with reflectedSuns, mirrors do not show the sun itself
 };
 
 /// Surfaces that a view sees: its G-buffer, and what stages have derived from it.

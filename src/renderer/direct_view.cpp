@@ -90,6 +90,13 @@ void findSunVisibility(gpu::PassList& f, gpu::HistoryImage* history, const ViewI
 
 }  // namespace
 
+// Probes add the reflections of emitters to what they have captured.
+static float roughestHighlight(const ViewInputs& in, const Settings& settings) {
+    const SpecularSettings& s = settings.specular;
+    const bool cones = s.roughFallback == RoughFallback::mips;
+    return anyEmitters(in.lamps) && !in.forProbe && s.rays > 0 ? (cones ? s.maxRoughness : 1.0F) : 0.0F;
+}
+
 lighting::ViewContext contextOf(const ViewInputs& in, const Settings& settings) {
     return {.view = in.view,
             .environment = in.environment,
@@ -98,6 +105,7 @@ lighting::ViewContext contextOf(const ViewInputs& in, const Settings& settings) 
             .lambertOnly = settings.materials.lambertOnly != 0,
             .unlit = in.draws.unlit,
             .emitterLamps = anyEmitters(in.lamps),
+            .roughestHighlight = roughestHighlight(in, settings),
             .reflectedSuns = anyReflected(in.lamps),
             .forProbe = in.forProbe};
 }
@@ -142,6 +150,7 @@ void lightSurfaces(gpu::PassList& f, gpu::HistoryImage* history, const ViewInput
     const DirectLight light = directLightOn(f, in, settings, out);
     out.direct = light.all;
     out.fromEmitters = light.fromEmitters;
+    out.highlights = light.highlights;
 }
 
 DirectLight directLightOn(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const ViewImages& images) {

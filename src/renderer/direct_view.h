@@ -55,6 +55,7 @@ struct ViewImages : lighting::Surfaces {
     gpu::Image lampVisibility;    ///< none if no lamp casts a shadow
     gpu::Image direct;
     gpu::Image fromEmitters;  ///< of DirectLight
+    gpu::Image highlights;    ///< the same
 };
 
 /// Lights for shading at hits of traced rays.

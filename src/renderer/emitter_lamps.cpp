@@ -35,6 +35,10 @@ LampParams lampOf(const Emitter& emitter, const mat4& moved) {
     lamp.spotScale = packHalfs(s[0][0], s[1][1]);
     lamp.spotOffset = packHalfs(s[2][2], s[1][0]);
     lamp.cosOuter = packHalfs(s[2][0], s[2][1]);
+    const mat3 extent =
+        turn * emitter.covariance * glm::transpose(turn) / std::max(emitter.radius * emitter.radius, 1e-20F);
+    lamp.extent = {packHalfs(extent[0][0], extent[1][1]), packHalfs(extent[2][2], extent[1][0]),
+                   packHalfs(extent[2][0], extent[2][1])};
     lamp.radius = emitter.radius * scale;
     lamp.shadow = noLampShadow;
     return lamp;

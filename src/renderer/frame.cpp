@@ -135,8 +135,9 @@ FrameImages renderFrame(gpu::PassList& f, FrameStore& own, const FrameInputs& in
     const LobeLight specular = traceLobe(f, &own.specular, in, settings, seen, lobeSpecular);
 
     // The light of the surfaces, and of what is in front of them.
-    lighting::Light light = lighting::compose(
-        f, context, settings, seen.images, {images.direct, diffuse, specular, images.fromEmitters}, layers, lit.next);
+    lighting::Light light =
+        lighting::compose(f, context, settings, seen.images,
+                          {images.direct, diffuse, specular, images.fromEmitters, images.highlights}, layers, lit.next);
     light = withOtherSide(f, in, settings, seen, light);
     light = withCoats(f, in, settings, seen, light);
     light = withBlended(f, blended.behindGlass, light);

@@ -107,6 +107,10 @@ private:
         piece.origin = weights.x * triangle_.a + weights.y * triangle_.b + weights.z * triangle_.c;
         piece.positions = piece.weight * piece.origin;
         const vec3 middle = (triangle_.a + triangle_.b + triangle_.c) / 3.0F;
+        for (const vec3& corner : {triangle_.a, triangle_.b, triangle_.c}) {
+            const vec3 away = (corner - middle) / static_cast<float>(cuts_);
+            piece.extents += piece.weight / 12.0F * glm::outerProduct(away, away);
+        }
         piece.reach = std::max({glm::distance(middle, triangle_.a), glm::distance(middle, triangle_.b),
                                 glm::distance(middle, triangle_.c)}) /
                       static_cast<float>(cuts_);
@@ -122,6 +126,10 @@ private:
     vec3 normal_;
     float area_;  // of a piece
 };
+
+float trace(const mat3& m) {
+    return m[0][0] + m[1][1] + m[2][2];
+}
 
 float longestSide(const SceneTriangle& t) {
     return std::max({glm::distance(t.a, t.b), glm::distance(t.b, t.c), glm::distance(t.c, t.a)});
@@ -156,7 +164,12 @@ void addSeen(std::vector<Seen>& seen, const vec3& a, const vec3& b, const vec3& 
 
 float EmissiveSum::variance() const {
     const vec3 mean = centre() - origin;
-    return std::max(squares / weight - glm::dot(mean, mean), 0.0F);
+    return std::max(trace(moments) / weight - glm::dot(mean, mean), 0.0F);
+}
+
+mat3 EmissiveSum::covariance() const {
+    const vec3 mean = centre() - origin;
+    return (moments + extents) / weight - glm::outerProduct(mean, mean);
 }
 
 EmissiveSum sumOf(std::span<const EmissiveSum> parts) {
@@ -165,7 +178,9 @@ EmissiveSum sumOf(std::span<const EmissiveSum> parts) {
     for (const EmissiveSum& part : parts) {
         const vec3 moved = part.origin - sum.origin;
         const vec3 offset = part.positions - part.weight * part.origin;
-        sum.squares += part.squares + 2.0F * glm::dot(moved, offset) + part.weight * glm::dot(moved, moved);
+        sum.moments += part.moments + glm::outerProduct(moved, offset) + glm::outerProduct(offset, moved) +
+                       part.weight * glm::outerProduct(moved, moved);
+        sum.extents += part.extents;
         sum.area += part.area;
         sum.power += part.power;
         sum.weight += part.weight;
@@ -177,7 +192,7 @@ EmissiveSum sumOf(std::span<const EmissiveSum> parts) {
     for (const EmissiveSum& part : parts) {
         const float away = glm::distance(part.centre(), centre);
         // A single piece of a round surface lies across the way to the centre.
-        const float farthest = part.squares == 0.0F ? std::hypot(away, part.reach) : away + part.reach;
+        const float farthest = trace(part.moments) == 0.0F ? std::hypot(away, part.reach) : away + part.reach;
         sum.reach = std::max(sum.reach, farthest);
     }
     return sum;

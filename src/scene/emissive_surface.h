@@ -16,13 +16,16 @@ struct EmissiveSum {
     vec3 normals{0.0F};
     mat3 spread{0.0F};  ///< of n · nᵗ
     vec3 positions{0.0F};
-    float squares = 0.0F;  ///< of positions, about `origin`
+    mat3 moments{0.0F};  ///< of x · xᵗ, of positions about `origin`
+    mat3 extents{0.0F};  ///< of the covariances of the points of single pieces
     vec3 origin{0.0F};
     float reach = 0.0F;  ///< from the centre to its farthest corner [m]
 
     [[nodiscard]] vec3 centre() const { return positions / weight; }
-    /// Mean squared distance from the centre.
+    /// Mean squared distance of the pieces from the centre.
     [[nodiscard]] float variance() const;
+    /// Of all points about the centre [m²].
+    [[nodiscard]] mat3 covariance() const;
     /// Mean over all directions of the area that is seen [m²].
     [[nodiscard]] float meanProjectedArea() const { return 0.25F * area; }
 };

@@ -210,6 +210,7 @@ Emitter emitterOf(const Group& group) {
     emitter.radiance = sum.power / sum.area;
     emitter.facing = 0.5F * sum.normals / mean;
     emitter.shape = spread * (sum.meanProjectedArea() * static_cast<float>(directions) / length);
+    emitter.covariance = sum.covariance();
     emitter.radius = sum.reach;
     // None for a sphere; for a disk the square of its radius, which is exact on its axis.
     emitter.softening = 4.0F * std::max(sum.variance() - sum.meanProjectedArea() / pi, 0.0F);

@@ -21,6 +21,7 @@ struct Emitter {
     vec3 radiance{0.0F};    ///< mean over its area [W/(m² sr)]
     vec3 facing{0.0F};      ///< half of the sum of area times normal [m²]
     mat3 shape{0.0F};       ///< S, symmetric [m²]
+    mat3 covariance{0.0F};  ///< of its points about the centre [m²]
     float radius = 0.0F;    ///< of a sphere that holds it [m]
     float softening =
         0.0F;  ///< added to squared distances: what is not round has no point from which all light comes [m²]

@@ -1,5 +1,7 @@
 // Light of small emissive surfaces, for which lamps stand, against closed forms.
+#include "compare/compare.h"
 #include "pass/harness.h"
+#include "reference/reference.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,6 +67,67 @@ TEST(Emitters, CastShadows) {
                 EXPECT_LT(p.value("final", x, y), 0.01F) << at.x << ", " << at.z;
             }
         }
+    }
+}
+
+// A glowing box above rough metal. half: of its sides.
+Scene boxOverMetal(float roughness, const vec3& half) {
+    Material metal;
+    metal.baseColor = vec4(0.9F, 0.9F, 0.9F, 1.0F);
+    metal.metallic = 1.0F;
+    metal.roughness = roughness;
+    Scene scene = sceneOf(metal, builtin::ground({4, 4}, {1, 1}, {1, 1}));
+    Material glow = lambertMaterial(vec3(0.0F));
+    glow.emissive = vec3(radiance);
+    builtin::place(scene, "box", builtin::addMaterial(scene, glow), builtin::box(half), builtin::at({0, 0.5F, 0}));
+    scene.cameras.push_back(builtin::camera("main", {0, 1.5F, 3.0F}, {0, 0.2F, 0}, 50));
+    return scene;
+}
+
+struct Reflected {
+    double error;  // relative MSE
+    double bias;
+};
+
+// The reflections of the first frame, of one ray a pixel.
+Reflected firstFrame(const Scene& scene, const std::vector<std::string>& settings = {}) {
+    std::vector<std::string> all{"diffuse.rays=1", "specular.rays=1"};
+    all.insert(all.end(), settings.begin(), settings.end());
+    const View view = viewOf(scene);
+    ReferenceOptions options;
+    options.samples = 256;
+    options.bounces = 1;
+    options.filter = PixelFilter::center;
+    const FloatImage expected = traceReference(scene, view, size, options).indirectSpecular;
+    const Pictures drawn = render(scene, view, size, settingsOf(all), {"indirect_specular"});
+    const auto found = compareImages(drawn.images.at("indirect_specular"), expected, {}).difference;
+    return {found.relativeMse, found.bias};
+}
+
+TEST(Emitters, RoughMetalShowsHighlightsWithoutNoise) {
+    const std::vector<vec3> shapes{{0.05F, 0.05F, 0.05F}, {0.3F, 0.02F, 0.02F}, {0.15F, 0.1F, 0.01F}};
+    for (const float roughness : {0.15F, 0.3F, 0.6F}) {
+        for (const vec3& half : shapes) {
+            const Reflected found = firstFrame(boxOverMetal(roughness, half));
+            const std::string label = fmt::format("{} {}", roughness, half.x);
+            RecordProperty(label, fmt::format("{} {}", found.error, found.bias));
+            const bool wide = roughness > 0.2F;  // than the box looks: its shape hardly matters
+            EXPECT_LT(found.error, wide ? 0.005 : 0.3) << label;
+            EXPECT_NEAR(found.bias, 0.0, wide ? 0.15 : 0.2) << label;
+        }
+    }
+    EXPECT_GT(firstFrame(boxOverMetal(0.3F, shapes[0]), {"direct.emitters=false"}).error, 0.1) << "rays alone";
+}
+
+// The screen, probes and the scene behind rays tell all light of the box but the highlight's.
+TEST(Emitters, HighlightsCountOnceWhateverAnswersTheRays) {
+    const Scene scene = boxOverMetal(0.4F, {0.05F, 0.05F, 0.05F});
+    for (const std::string source : {"trace_screen.enabled=true", "probes.enabled=true", "trace_scene.enabled=true"}) {
+        std::vector<std::string> settings{source};
+        if (source != "trace_screen.enabled=true") {
+            settings.emplace_back("trace_screen.enabled=false");
+        }
+        EXPECT_NEAR(firstFrame(scene, settings).bias, 0.0, 0.15) << source;
     }
 }
 

@@ -15,6 +15,6 @@ void main() {
     }
     RayTexel texel = inputs.items[i];
     ivec3 slot = unpackSlot(packSlot(ivec3(texel.slotX, texel.slotY, texel.slotZ)));
-    Ray ray = unpackRay(packRay(Ray(texel.direction, texel.weight, texel.trust, texel.spread)));
-    outputs.items[i] = RayTexel(slot.x, slot.y, slot.z, ray.direction, ray.weight, ray.trust, ray.spread);
+    Ray ray = unpackRay(packRay(Ray(texel.direction, texel.weight, texel.trust, texel.spread, texel.highlighted != 0u)));
+    outputs.items[i] = RayTexel(slot.x, slot.y, slot.z, ray.direction, ray.weight, ray.trust, ray.spread, ray.highlighted ? 1u : 0u);
 }

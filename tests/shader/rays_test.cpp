@@ -28,12 +28,12 @@ TEST_F(RayPacking, keepsEverySlotExactly) {
     }
 }
 
-TEST_F(RayPacking, keepsDirectionWeightTrustAndSpread) {
+TEST_F(RayPacking, keepsDirectionWeightTrustSpreadAndHighlights) {
     const auto directions = spreadDirections(5000);
     std::vector<RayTexel> texels;
     for (size_t i = 0; i < directions.size(); ++i) {
         const float part = static_cast<float>(i) / static_cast<float>(directions.size() - 1);
-        texels.push_back({0, 0, 0, directions[i], 2.0F * part, 1.0F - part, part * part});
+        texels.push_back({0, 0, 0, directions[i], 2.0F * part, 1.0F - part, part * part, static_cast<uint32_t>(i % 2)});
     }
     const auto back = mapOnDevice<RayTexel>("rays_test.comp", texels);
     for (size_t i = 0; i < texels.size(); ++i) {
@@ -41,12 +41,13 @@ TEST_F(RayPacking, keepsDirectionWeightTrustAndSpread) {
         ASSERT_NEAR(back[i].weight, texels[i].weight, 1e-3F * texels[i].weight + 1e-7F);  // 11 bits of a half float
         ASSERT_NEAR(back[i].trust, texels[i].trust, 0.5 / 255.0 + 1e-6);
         ASSERT_NEAR(back[i].spread, texels[i].spread, 0.5 / 255.0 + 1e-6);
+        ASSERT_EQ(back[i].highlighted, texels[i].highlighted);
     }
 }
 
 TEST_F(RayPacking, keepsTheWeightsThatMeanSomethingExactly) {
-    const std::vector<RayTexel> texels = {{0, 0, 0, vec3(0, 1, 0), 1.0F, 0.0F, 1.0F},
-                                          {0, 0, 0, vec3(0, 1, 0), 0.0F, 1.0F, 0.0F}};
+    const std::vector<RayTexel> texels = {{0, 0, 0, vec3(0, 1, 0), 1.0F, 0.0F, 1.0F, 0},
+                                          {0, 0, 0, vec3(0, 1, 0), 0.0F, 1.0F, 0.0F, 1}};
     const auto back = mapOnDevice<RayTexel>("rays_test.comp", texels);
     for (size_t i = 0; i < texels.size(); ++i) {
         EXPECT_EQ(back[i].weight, texels[i].weight);

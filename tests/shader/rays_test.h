@@ -14,6 +14,7 @@ struct RayTexel {
     float weight;
     float trust;
     float spread;
+    uint highlighted;
 };
 
 // State of a waiting ray, without its slot.

@@ -18,6 +18,7 @@ layout(constant_id = 3) const uint layers = 1u;
 layout(constant_id = 4) const uint hasDirectional = 0u;
 layout(constant_id = 5) const uint splits = 0u;
 layout(constant_id = 6) const uint bounded = 0u;
+layout(constant_id = 7) const uint highlights = 0u;  // with splits: there are some
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { CompositeParams params; };
@@ -28,6 +29,7 @@ uniform sampler2D material;
 uniform sampler2D ggxTable;
 layout(rgba16f) uniform readonly image2D direct;
 layout(rgba16f) uniform readonly image2D fromEmitters;
+layout(rgba16f) uniform readonly image2D emitterHighlights;
 layout(rgba16f) uniform readonly image2D diffuse;
 layout(rgba16f) uniform writeonly image2D directAlone;
 layout(rgba16f) uniform writeonly image2D indirectDiffuse;
@@ -97,12 +99,15 @@ void main() {
     vec3 all = imageLoad(direct, pixel).rgb;
     if (layers != 0u) {
         vec3 emitters = vec3(0.0);
+        vec3 reflected = fromSpecular;
         if (splits != 0u) {
             emitters = imageLoad(fromEmitters, pixel).rgb;
-            imageStore(directAlone, pixel, vec4(max(all - emitters, vec3(0.0)), 1.0));
+            vec3 shine = highlights != 0u ? imageLoad(emitterHighlights, pixel).rgb : vec3(0.0);
+            imageStore(directAlone, pixel, vec4(max(all - emitters - shine, vec3(0.0)), 1.0));
+            reflected += shine;
         }
         imageStore(indirectDiffuse, pixel, vec4(clampToHalf(fromDiffuse + emitters), 1.0));
-        imageStore(indirectSpecular, pixel, vec4(clampToHalf(fromSpecular), 1.0));
+        imageStore(indirectSpecular, pixel, vec4(clampToHalf(reflected), 1.0));
     }
     vec3 sum = all + fromDiffuse + fromSpecular;
     if (bounded != 0u) {

@@ -43,6 +43,7 @@ struct CompositeInputs {
     bool lambertOnly = false;   ///< MaterialsSettings
     bool layers = true;         ///< false: only the sum is written
     gpu::Image fromEmitters{};  ///< with layers, the part of `direct` that goes to indirect diffuse light; may be none
+    gpu::Image highlights{};    ///< the same, that goes to indirect specular light
     gpu::Image limits{};        ///< of LightBound, of the sum; may be none
 };
 

@@ -1,11 +1,13 @@
 // Direct light of sun and lamps, emission and background. In: G-buffer, visibility of sun and lamps, lamp masks per
 // tile.
-// Out: direct radiance; the part of it that lamps bring which stand for emissive surfaces, or for the sun in mirrors.
+// Out: direct radiance; the parts of it that lamps bring which stand for emissive surfaces, or for the sun in mirrors:
+// diffuse light and the sun's, and highlights of emitters.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/direct/direct.h"
 #include "effects/environment/environment.glsl"
 #include "effects/gbuffer/gbuffer_surface.glsl"
+#include "shaders/emitter_highlight.glsl"
 #include "shaders/half_float.glsl"
 #include "shaders/lamp.glsl"
 #include "shaders/projection.glsl"
@@ -15,6 +17,7 @@ layout(constant_id = 1) const uint anyLamps = 1u;
 layout(constant_id = 3) const uint coloredSun = 0u;  // 1: glass has coloured the sunlight
 
 layout(constant_id = 4) const uint hidesSunInMirrors = 0u;
+layout(constant_id = 5) const uint highlights = 0u;  // emitters have highlights
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { DirectParams params; };
@@ -30,6 +33,7 @@ uniform sampler2D ggxTable;
 uniform usampler2DArray lampMasks;
 layout(rgba16f) uniform writeonly image2D direct;
 layout(rgba16f) uniform writeonly image2D fromEmitters;
+layout(rgba16f) uniform writeonly image2D emitterHighlights;
 
 uvec4 loadLampMask(ivec3 texel) { return texelFetch(lampMasks, texel, 0); }
 #include "shaders/lamp_mask.glsl"
@@ -38,19 +42,29 @@ float visibilityOfLamp(uint shadow, ivec2 pixel) {
     return shadow == noLampShadow ? 1.0 : texelFetch(lampVisibility, ivec3(pixel, shadow / 4u), 0)[shadow % 4u];
 }
 
-// emitters: the part of emitters and of mirrors that reflect the sun.
-vec3 lampLight(uint index, Surface s, vec3 p, vec3 n, vec3 v, ivec2 pixel, inout vec3 emitters) {
+// What lamps bring that stand for emissive surfaces, or for the sun in mirrors.
+struct IndirectParts {
+    vec3 emitters;
+    vec3 highlights;  // of emitters
+};
+
+vec3 lampLight(uint index, Surface s, vec3 p, vec3 n, vec3 v, ivec2 pixel, inout IndirectParts parts) {
     vec3 toLamp;
-    vec3 irradiance = lampIrradiance(lampBlock.lamps[index], p, toLamp);
-    s = surfaceFor(lampBlock.lamps[index], s);
-    vec3 light = brdfTimesCosine(s, n, v, toLamp) * irradiance * visibilityOfLamp(lampBlock.lamps[index].shadow, pixel);
-    bool indirect = lampBlock.lamps[index].type == lampEmitter || lampBlock.lamps[index].type == lampReflected;
-    emitters += indirect ? light : vec3(0.0);
+    LampParams lamp = lampBlock.lamps[index];
+    vec3 irradiance = lampIrradiance(lamp, p, toLamp) * visibilityOfLamp(lamp.shadow, pixel);
+    vec3 light = brdfTimesCosine(surfaceFor(lamp, s), n, v, toLamp) * irradiance;
+    parts.emitters += lamp.type == lampEmitter || lamp.type == lampReflected ? light : vec3(0.0);
+    if (highlights != 0u && lamp.type == lampEmitter) {
+        float share = highlightShare(s.roughness, params.roughestHighlight);
+        vec3 highlight = share * emitterHighlight(lamp, s, p, n, v, toLamp) * irradiance;
+        parts.highlights += highlight;
+        light += highlight;
+    }
     return light;
 }
 
-vec3 radianceAt(ivec2 pixel, out vec3 emitters) {
-    emitters = vec3(0.0);
+vec3 radianceAt(ivec2 pixel, out IndirectParts parts) {
+    parts = IndirectParts(vec3(0.0), vec3(0.0));
     float d = texelFetch(depth, pixel, 0).r;
     if (d <= 0.0) {
         vec2 uv = pixelToUv(pixel, params.view.pixel);
@@ -76,7 +90,7 @@ vec3 radianceAt(ivec2 pixel, out vec3 emitters) {
     for (uint first = 0u; anyLamps != 0u && first < lampBlock.count; first += lampsPerLayer) {
         uvec4 bits = lampMaskAt(pixel, first / lampsPerLayer);
         while (bits != uvec4(0u)) {
-            radiance += lampLight(first + popFirstLamp(bits), s, p, n, v, pixel, emitters);
+            radiance += lampLight(first + popFirstLamp(bits), s, p, n, v, pixel, parts);
         }
     }
     return radiance;
@@ -85,10 +99,13 @@ vec3 radianceAt(ivec2 pixel, out vec3 emitters) {
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (all(lessThan(pixel, ivec2(params.view.size)))) {
-        vec3 emitters;
-        imageStore(direct, pixel, vec4(clampToHalf(radianceAt(pixel, emitters)), 1.0));
+        IndirectParts parts;
+        imageStore(direct, pixel, vec4(clampToHalf(radianceAt(pixel, parts)), 1.0));
         if ((anyEmitters | anyReflected) != 0u) {
-            imageStore(fromEmitters, pixel, vec4(clampToHalf(emitters), 1.0));
+            imageStore(fromEmitters, pixel, vec4(clampToHalf(parts.emitters), 1.0));
+        }
+        if (highlights != 0u) {
+            imageStore(emitterHighlights, pixel, vec4(clampToHalf(parts.highlights), 1.0));
         }
     }
 }

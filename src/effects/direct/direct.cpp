@@ -20,6 +20,8 @@ DirectLight directLight(gpu::PassList& f, const GBuffer& g, const LightVisibilit
     const bool emitters = anyEmitters(lights.lamps);
     const bool apart = emitters || anyReflected(lights.lamps);
     const gpu::Image fromEmitters = apart ? f.image("from_emitters", direct.format, g.depth.size) : gpu::Image{};
+    const bool shine = emitters && params.roughestHighlight > 0.0F;
+    const gpu::Image highlights = shine ? f.image("emitter_highlights", direct.format, g.depth.size) : gpu::Image{};
     // Always bound, but not read if no lamp casts a shadow.
     const gpu::Image lampVisibility =
         visibility.lamps ? visibility.lamps : f.placeholder(VK_FORMAT_R8G8B8A8_UNORM, gpu::ViewKind::array);
@@ -39,6 +41,8 @@ DirectLight directLight(gpu::PassList& f, const GBuffer& g, const LightVisibilit
         .write("direct", direct)
         .constant("lambertOnly", lights.lambertOnly ? 1U : 0U)
         .write("fromEmitters", apart ? fromEmitters : f.placeholder(direct.format))
+        .write("emitterHighlights", shine ? highlights : f.placeholder(direct.format))
+        .constant("highlights", shine ? 1U : 0U)
         .constant("anyEmitters", emitters ? 1U : 0U)
         .constant("anyReflected", anyReflected(lights.lamps) ? 1U : 0U)
         .constant("hidesSunInMirrors", lights.hidesSunInMirrors ? 1U : 0U)
@@ -47,7 +51,7 @@ DirectLight directLight(gpu::PassList& f, const GBuffer& g, const LightVisibilit
         .params(params)
         .params(lights.lamps, "lampBlock")
         .dispatch(direct.size);
-    return {direct, fromEmitters};
+    return {direct, fromEmitters, highlights};
 }
 
 }  // namespace reflet

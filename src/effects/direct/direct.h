@@ -11,8 +11,9 @@ SHARED_BEGIN
 struct DirectParams {
     ViewParams view;
     vec3 toSun;
-    vec3 sunIrradiance;  // on a surface that faces it [W/m²]
-    float sunRoughness;  // perceptual, of a lobe about as wide as the sun's disk: highlights are no sharper
+    vec3 sunIrradiance;       // on a surface that faces it [W/m²]
+    float sunRoughness;       // perceptual, of a lobe about as wide as the sun's disk: highlights are no sharper
+    float roughestHighlight;  // of emitters (shaders/emitter_highlight.glsl); 0: none
 };
 
 SHARED_END
@@ -48,7 +49,8 @@ struct DirectLights {
 struct DirectLight {
     gpu::Image all;           ///< radiance of sun and lamps, emission and background
     gpu::Image fromEmitters;  ///< of it, what lamps bring that stand for emissive surfaces or for the sun in
-                              ///< mirrors; none without these
+                              ///< mirrors, but for highlights of emitters; none without these
+    gpu::Image highlights;    ///< of it, highlights of emitters; none without these
 };
 
 DirectLight directLight(gpu::PassList& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,

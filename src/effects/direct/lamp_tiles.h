@@ -17,8 +17,9 @@ SHARED_BEGIN
            "Tiled light culling: find the lamps that reach each 16x16 pixel tile and shade with those only. Off: "     \
            "every pixel evaluates every lamp. The image is the same.")                                                 \
     SWITCH(emitters, 1,                                                                                                \
-           "Light diffuse surfaces by small bright emissive surfaces as by lamps, with shadow maps (shadow.lamps). "   \
-           "Off: only diffuse rays that hit them by chance bring their light, with much noise.")                       \
+           "Light surfaces by small bright emissive surfaces as by lamps, with shadow maps (shadow.lamps): diffuse "   \
+           "light, and highlights on rough ones. Off: only rays that hit them by chance bring their light, with much " \
+           "noise.")                                                                                                   \
     VALUE(uint, reflectedSuns, 0, 0, 4,                                                                                \
           "Flat mirrors that reflect the sun onto other surfaces (caustics), at most, with shadow maps (shadow.lamps " \
           "counts them, too). 0: that light is missing, as rays find it almost never.")

@@ -32,12 +32,12 @@ Ray diffuseRay(RayNumber number, vec3 n) {
     vec2 u = randomPair(number);
     if (distribution == RayDistribution_uniform) {
         vec3 local = sampleUniformHemisphere(u);
-        return Ray(basisAround(n) * local, 2.0 * local.z, 1.0, 0.0);  // cos / pi over 1 / (2 pi)
+        return Ray(basisAround(n) * local, 2.0 * local.z, 1.0, 0.0, false);  // cos / pi over 1 / (2 pi)
     }
     if (distribution == RayDistribution_normal) {
-        return Ray(n, 1.0, 0.0, 1.0);
+        return Ray(n, 1.0, 0.0, 1.0, false);
     }
-    return Ray(basisAround(n) * sampleCosineHemisphere(u), 1.0, 1.0, 0.0);
+    return Ray(basisAround(n) * sampleCosineHemisphere(u), 1.0, 1.0, 0.0, false);
 }
 
 // Normal maps and smooth normals send some rays below the surface; these are bent to just above it.

@@ -10,6 +10,7 @@ layout(constant_id = 0) const uint lobe = 0u;
 layout(constant_id = 1) const uint noise = RayNoise_blue;
 layout(constant_id = 2) const uint distribution = RayDistribution_cosine;
 layout(constant_id = 7) const uint spreads = 0u;
+layout(constant_id = 9) const uint highlights = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform RayBlock { GenerateRaysParams rayParams; };
@@ -44,7 +45,7 @@ void generate(ivec2 pixel, uint rays) {
         ivec3 slot = ivec3(pixel, i - rayParams.firstRay);
         imageStore(answer, slot, vec4(0.0));
         imageStore(source, slot, vec4(0.0));
-        Ray ray = Ray(vec3(0.0, 0.0, 1.0), 0.0, 0.0, 0.0);
+        Ray ray = Ray(vec3(0.0, 0.0, 1.0), 0.0, 0.0, 0.0, false);
         if (needed) {
             ray = makeRay(RayNumber(pixel, i, rays), p, n, m, geometric);
             appendRay(WaitingRay(slot, 1.0, 0.0, false, vec3(0.0)));

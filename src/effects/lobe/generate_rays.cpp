@@ -8,12 +8,17 @@ namespace reflet {
 
 namespace {
 
+bool leavesOutHighlights(const RayGeneration& in) {
+    return in.lobe == lobeSpecular && in.params.roughestHighlight > 0.0F;
+}
+
 // What make_ray.glsl reads.
 gpu::ComputePass& bindGeneration(gpu::PassList& f, gpu::ComputePass& pass, const RayGeneration& in) {
     const GBuffer& g = in.from.g;
     bindDiffuseRays(pass, in);
     return bindSurfaces(f, pass, g)
         .constant("spreads", raysSpread(in.lobe, in.params.diffuse, in.params.specular) ? 1U : 0U)
+        .constant("highlights", leavesOutHighlights(in) ? 1U : 0U)
         .read("ownMaterial", g.material)
         .read("ownBaseColor", g.baseColor)
         .read("ggxTable", in.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}));
@@ -50,6 +55,7 @@ Rays raysOf(gpu::PassList& f, const RayGeneration& in) {
               .firstRay = in.params.firstRay,
               .count = layers,
               .lobe = in.lobe,
+              .highlights = leavesOutHighlights(in),
               .spreads = raysSpread(in.lobe, in.params.diffuse, in.params.specular),
               .countSteps = in.countSteps,
               .directional = in.directional};

@@ -75,7 +75,7 @@ RayGeneration generationOf(const LobeInputs& in, const LobePlan& plan, uint32_t 
             .blueNoise = in.blueNoise,
             .noise = in.settings.noise,
             .lobe = in.lobe,
-            .params = {{}, in.diffuse, in.specular, first, count, in.coneShare},
+            .params = {{}, in.diffuse, in.specular, first, count, in.coneShare, in.roughestHighlight},
             .imageMotion = plan.imageMotion,
             .countSteps = in.countSteps,
             .directional = plan.directional};

@@ -31,6 +31,7 @@ struct LobeInputs {
     bool countHits = false;              ///< LobeLight::hits is wanted
     size_t certainOthers = 0;            ///< how many of `others`, at their start, find the actual hit
     float coneShare = 0.0F;              ///< of GenerateRaysParams
+    float roughestHighlight = 0.0F;      ///< the same
 };
 
 /// Owns the histories of a lobe in one view.

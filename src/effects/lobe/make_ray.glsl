@@ -1,11 +1,12 @@
 // Directions and weights of the rays of a lobe. The includer declares what diffuse_ray.glsl requires, the image
-// ownBaseColor, ggxTable and the constant spreads.
+// ownBaseColor, ggxTable and the constants spreads and highlights.
 #ifndef REFLET_MAKE_RAY_GLSL
 #define REFLET_MAKE_RAY_GLSL
 
 #include "effects/gbuffer/gbuffer_surface.glsl"
 #include "effects/lobe/diffuse_ray.glsl"
 #include "effects/lobe/rays.glsl"
+#include "shaders/emitter_highlight.glsl"
 #include "shaders/projection.glsl"
 #include "shaders/sampling.glsl"
 
@@ -60,7 +61,7 @@ Ray specularRay(RayNumber number, vec3 n, vec3 v, MaterialTexel m) {
     bool cone = spreads != 0u && m.roughness > rayParams.specular.maxRoughness &&
                 rayParams.specular.roughFallback == RoughFallback_mips && anisotropy == vec2(0.0);
     if (cone && rayParams.coneShare == 0.0) {
-        return Ray(frame * ggxMeanDirection(eye, alpha), 1.0, 1.0, m.roughness);
+        return Ray(frame * ggxMeanDirection(eye, alpha), 1.0, 1.0, m.roughness, false);
     }
     float tableRoughness = mayBeAnisotropic() ? albedoRoughness(m.roughness, anisotropy) : m.roughness;
     vec2 table = textureLod(ggxTable, ggxTableUv(eye.z, tableRoughness), 0.0).rg;
@@ -74,14 +75,17 @@ Ray specularRay(RayNumber number, vec3 n, vec3 v, MaterialTexel m) {
     }
     vec3 l = 2.0 * dot(eye, h) * h - eye;
     if (cone) {
-        return Ray(frame * l, 1.0, 1.0, m.roughness);
+        return Ray(frame * l, 1.0, 1.0, m.roughness, false);
     }
     float y = relativeF0(number.pixel, m);
     float weight = share * fresnelSchlick(vec3(y), dot(eye, h)).x / max(y * table.x + table.y, 1e-3);
     float fade = rayParams.specular.maxRoughness < 1.0 && rayParams.specular.roughFallback == RoughFallback_next
                      ? smoothstep(rayParams.specular.maxRoughness - 0.1, rayParams.specular.maxRoughness, m.roughness)
                      : 0.0;
-    return Ray(frame * l, weight, 1.0 - fade, 0.0);
+    uint stream = number.index * 2u + hashPcg(rayParams.view.seed + 9u);
+    float chance = hashToUnit(hashPixel(uvec2(number.pixel), stream, rayParams.view.frame));
+    bool highlighted = highlights != 0u && chance < highlightShare(m.roughness, rayParams.roughestHighlight);
+    return Ray(frame * l, weight, 1.0 - fade, 0.0, highlighted);
 }
 
 // The ray of a surface with this point, shading normal, material and geometric normal.

@@ -31,7 +31,7 @@ void main() {
     float d = texelFetch(ownDepth, at, 0).r;
     vec4 seen = vec4(0.0);
     if (d > 0.0) {
-        seen = vec4(clampToHalf(lightAt(pixel, 1.0)), params.settings.thickness);
+        seen = vec4(clampToHalf(lightAt(pixel, 1.0, false)), params.settings.thickness);
         if (secondLayer != 0u) {
             seen.a = min(thicknessAt(pixel, d), largestHalf);
         }

@@ -47,19 +47,21 @@ bool isKnownMiss(WaitingRay ray) { return ray.clear > 0.99 * largestHalf; }
 
 struct Ray {
     vec3 direction;  // world space, unit
-    float weight;    // of the ray's radiance in the pixel's mean
+    float weight;    // of the ray's radiance in the pixel's mean, at least 0
     float trust;     // largest confidence allowed for a screen hit, 0..1, in steps of 1/255
     float spread;    // footprint, in steps of 1/255. 0: a single direction. Specular: a cone, the lobe of this perceptual
                      // roughness. Diffuse, 1: the hemisphere around it
+    bool highlighted;  // a highlight stands for the emitters that the ray meets: it leaves their light out
 };
 
 uvec2 packRay(Ray ray) {
     uint shares = packUnorm4x8(vec4(ray.trust, ray.spread, 0.0, 0.0));
-    return uvec2(packUnitVector(ray.direction), (packHalf2x16(vec2(ray.weight, 0.0)) & 0xffffu) | (shares << 16u));
+    uint weight = packHalf2x16(vec2(ray.weight, 0.0)) & 0x7fffu;
+    return uvec2(packUnitVector(ray.direction), weight | (ray.highlighted ? 0x8000u : 0u) | (shares << 16u));
 }
 Ray unpackRay(uvec2 bits) {
     vec2 shares = unpackUnorm4x8(bits.y >> 16u).xy;
-    return Ray(unpackUnitVector(bits.x), unpackHalf2x16(bits.y).x, shares.x, shares.y);
+    return Ray(unpackUnitVector(bits.x), unpackHalf2x16(bits.y & 0x7fffu).x, shares.x, shares.y, (bits.y & 0x8000u) != 0u);
 }
 
 // A source's result for a ray. confidence: the share of the ray's weight that it covers, 0..1.

@@ -118,6 +118,7 @@ struct GenerateRaysParams {
     uint rayCount;    // of the batch
     float coneShare;  // for cones (RoughFallback_mips): the central share of the visible normals from which the ray is
                       // sampled; 0: always the lobe's mean direction
+    float roughestHighlight;  // of emitters (emitter_highlight.glsl); 0: no ray leaves them out
 };
 
 struct ResolveRaysParams {
@@ -168,7 +169,8 @@ struct Rays {
     uint32_t firstRay = 0;
     uint32_t count = 0;  ///< per pixel, in this batch, at most
     uint32_t lobe = 0;
-    bool spreads = false;  ///< whether some Ray.spread may be above 0
+    bool highlights = false;  ///< whether some Ray.highlighted may be true
+    bool spreads = false;     ///< whether some Ray.spread may be above 0
     bool countSteps = false;
     bool directional = false;  ///< whether to compute LobeLight.directional; diffuse only
 };

@@ -83,21 +83,22 @@ void writeReflectionMotion(ivec2 pixel, Ray ray, vec3 p, MarchResult hit) {
 }
 
 // Radiance of the surface behind which a ray from p passes after `clear` metres: that of the next pixel.
-vec3 lightInFront(vec3 p, vec3 direction, float clear) {
+vec3 lightInFront(vec3 p, Ray ray, float clear) {
+    vec3 direction = ray.direction;
     vec4 clip = params.view.worldToClip * vec4(p + direction * clear, 1.0);
     vec4 toward = params.view.worldToClip * vec4(direction, 0.0);
     vec2 step = (toward.xy * clip.w - clip.xy * toward.w) * params.view.size;  // any length
     step *= ndcToUv(vec2(1.0)) - ndcToUv(vec2(0.0));
     vec2 at = ndcToUv(clip.xy / clip.w) * params.view.size + 0.5 * step * inversesqrt(max(dot(step, step), 1e-30));
-    return lightAt(clamp(ivec2(at), ivec2(0), ivec2(params.view.size) - 1), 1.0);
+    return lightAt(clamp(ivec2(at), ivec2(0), ivec2(params.view.size) - 1), 1.0, ray.highlighted);
 }
 
 // Passes the unoccluded distance on to the next source, unless an earlier source found a longer one.
-void updateClearDistance(MarchResult hit, bool unseen, vec3 p, vec3 direction, inout WaitingRay w) {
+void updateClearDistance(MarchResult hit, bool unseen, vec3 p, Ray ray, inout WaitingRay w) {
     if (hit.clear >= w.clear) {
         w.clear = hit.clear;
         w.lost = hit.occluded || unseen;
-        w.inFront = w.lost ? lightInFront(p, direction, hit.clear) : vec3(0.0);
+        w.inFront = w.lost ? lightInFront(p, ray, hit.clear) : vec3(0.0);
     }
 }
 
@@ -105,7 +106,7 @@ void updateClearDistance(MarchResult hit, bool unseen, vec3 p, vec3 direction, i
 RayAnswer answerOfHit(MarchResult hit, vec3 p, Ray ray) {
     float width = cones != 0u ? widthOfHit(ray.spread, hit) : 1.0;
     float fade = fades != 0u ? fadeOf(hit, p, ray.direction, params.settings, params.longest, params.view).x : 1.0;
-    return RayAnswer(lightAt(hit.pixel, width), ray.trust * fade, hit.distance);
+    return RayAnswer(lightAt(hit.pixel, width, ray.highlighted), ray.trust * fade, hit.distance);
 }
 
 const RayAnswer noAnswer = RayAnswer(vec3(0.0), 0.0, 0.0);

@@ -13,7 +13,7 @@
 
 layout(constant_id = 22) const uint cones = 0u;
 layout(constant_id = 29) const uint readsPrevious = 0u;
-layout(constant_id = 32) const uint leavesOutEmitters = 0u;
+layout(constant_id = 32) const uint emittersAtHits = EmittersAtHits_all;
 layout(constant_id = 33) const uint leavesOutMirrors = 0u;
 
 layout(scalar) uniform ParamsBlock { TraceScreenParams params; };
@@ -73,9 +73,14 @@ vec3 allLightAt(ivec2 pixel, float width) {
     return loadLight(ivec2(uv * params.view.size), 0);
 }
 
-vec3 lightAt(ivec2 pixel, float width) {
-    vec3 all = allLightAt(pixel, width);
-    return leavesOutEmitters != 0u ? max(all - emitterAt(pixel), vec3(0.0)) : all;
+// highlighted: of the ray.
+vec3 lightAt(ivec2 pixel, float width, bool highlighted) {
+    vec3 light = allLightAt(pixel, width);
+    if (emittersAtHits != EmittersAtHits_all) {
+        bool all = emittersAtHits == EmittersAtHits_notHighlighted && !highlighted;
+        light = all ? light : max(light - emitterAt(pixel), vec3(0.0));
+    }
+    return light;
 }
 
 #endif

@@ -63,7 +63,7 @@ SliceLight traceSlice(SliceOrigin from, RayNumber number) {
     SliceRest rest = restOf(s, ahead, back, u.x, u.y);
     vec4 covered = ahead.light + back.light;
     return SliceLight(vec4(clampToHalf(covered.rgb), covered.a), ahead.turning + back.turning, rest.open,
-                      Ray(raiseAbove(rest.direction, from.geometric), 1.0, 1.0, 0.0), rest.behind);
+                      Ray(raiseAbove(rest.direction, from.geometric), 1.0, 1.0, 0.0, false), rest.behind);
 }
 
 #endif

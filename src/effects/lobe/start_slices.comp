@@ -39,7 +39,7 @@ layout(r32f) uniform writeonly image2DArray steps;
 #include "effects/lobe/slice_pixel.glsl"
 
 const SliceLight noLight =
-    SliceLight(vec4(0.0), vec4(0.0), 0.0, Ray(vec3(0.0, 0.0, 1.0), 0.0, 0.0, 0.0), false);
+    SliceLight(vec4(0.0), vec4(0.0), 0.0, Ray(vec3(0.0, 0.0, 1.0), 0.0, 0.0, 0.0, false), false);
 
 void store(ivec3 slot, SliceOrigin from, SliceLight found) {
     imageStore(direction, slot, uvec4(packRay(found.ray), 0u, 0u));

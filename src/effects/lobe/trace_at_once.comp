@@ -21,6 +21,7 @@ layout(constant_id = 4) const uint countSteps = 0u;
 layout(constant_id = 5) const uint hasDirectional = 0u;
 layout(constant_id = 6) const uint adds = 0u;
 layout(constant_id = 7) const uint spreads = 0u;
+layout(constant_id = 9) const uint highlights = 0u;
 layout(constant_id = 8) const uint environmentLights = 0u;
 const uint adaptive = 0u;
 
@@ -64,7 +65,7 @@ float traceOnScreen(RayOrigin from, uint number, Ray ray, inout WaitingRay w, in
     MarchOptions options = screenOptions(from.pixel, number);
     MarchResult hit = marchBy(method, march, options, view);
     bool unseen = hitsUnseen(hit, from.point, ray, options);
-    updateClearDistance(hit, unseen, from.point, ray.direction, w);
+    updateClearDistance(hit, unseen, from.point, ray, w);
     if (hit.outcome == marchHit && !unseen) {
         if (tellsMotion != 0u && number == 0u) {
             writeReflectionMotion(from.pixel, ray, from.point, hit);

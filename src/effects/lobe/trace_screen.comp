@@ -45,7 +45,7 @@ RayAnswer traceAnswer(ivec3 slot, Ray ray, vec3 p, vec3 n, inout WaitingRay w) {
         imageStore(steps, slot, vec4(float(hit.steps)));
     }
     bool unseen = hitsUnseen(hit, p, ray, options);
-    updateClearDistance(hit, unseen, p, ray.direction, w);
+    updateClearDistance(hit, unseen, p, ray, w);
     if (tellsMotion != 0u && slot.z == 0 && hit.outcome == marchHit && !unseen) {
         writeReflectionMotion(slot.xy, ray, p, hit);
     }
@@ -62,7 +62,8 @@ RayAnswer answerRay(ivec3 slot, Ray ray, inout WaitingRay w) {
     float d = texelFetch(ownDepth, slot.xy, 0).r;
     vec3 p = rayOrigin(slot, d, params.own);
     vec3 n = unpackUnitVector(texelFetch(ownGeometricNormal, slot.xy, 0).r);
-    if (through != throughScreen && !liesOnMirror(p, n)) {
+    // Planar views are of smooth surfaces; the next source answers where a texture makes these rough.
+    if (through != throughScreen && (ray.highlighted || !liesOnMirror(p, n))) {
         return noAnswer;
     }
     if (through == throughMirrorLookup) {

@@ -60,13 +60,14 @@ uint32_t throughOf(PlanarForm form) {
 gpu::ComputePass& bindScreenLight(gpu::PassList& f, gpu::ComputePass& pass, const ScreenImages& seen,
                                   TraceScreenParams params) {
     const bool previous = seen.lit.valid;
+    const bool leavesOut = seen.emitters != EmittersAtHits::all;
     const gpu::Image light = seen.light ? seen.light : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT);
     params.view = seen.view;
     params.previousValid = previous ? 1U : 0U;
     params.longest = std::min(params.longest, params.settings.maxDistance);
     return pass.constant("readsPrevious", params.settings.light == HitLight::previous ? 1U : 0U)
         .constant("secondLayer", seen.backDepth ? 1U : 0U)
-        .constant("leavesOutEmitters", seen.leavesOutEmitters ? 1U : 0U)
+        .constant("emittersAtHits", static_cast<uint32_t>(seen.emitters))
         .constant("leavesOutMirrors", seen.leavesOutMirrors ? 1U : 0U)
         .constant("cones", seen.lightMips ? 1U : 0U)
         .read("depth", seen.g.depth)
@@ -75,8 +76,8 @@ gpu::ComputePass& bindScreenLight(gpu::PassList& f, gpu::ComputePass& pass, cons
         .read("motion", seen.g.motion)
         .read("light", light)
         .read("previousLit", previous ? seen.lit.previous : light)
-        .read("hitMaterial", seen.leavesOutEmitters || seen.leavesOutMirrors ? seen.g.material : light)
-        .read("hitEmissive", seen.leavesOutEmitters ? seen.g.emissive : light)
+        .read("hitMaterial", leavesOut || seen.leavesOutMirrors ? seen.g.material : light)
+        .read("hitEmissive", leavesOut ? seen.g.emissive : light)
         .read("lightMips", seen.lightMips ? seen.lightMips : light)
         .params(params);
 }

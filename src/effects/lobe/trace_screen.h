@@ -30,6 +30,13 @@ CHOICES(ThicknessMode, THICKNESSES)
     OPTION(HitLight, previous, 2)
 CHOICES(HitLight, HIT_LIGHTS)
 
+// What hits read of surfaces with materialFlagEmitter.
+#define EMITTERS_AT_HITS(OPTION)    \
+    OPTION(EmittersAtHits, all, 0)  \
+    OPTION(EmittersAtHits, none, 1) \
+    OPTION(EmittersAtHits, notHighlighted, 2)  // what they emit, but for rays with Ray.highlighted
+CHOICES(EmittersAtHits, EMITTERS_AT_HITS)
+
 #define TRACE_SCREEN_SETTINGS(VALUE, SWITCH, CHOICE)                                                                   \
     SWITCH(enabled, 1,                                                                                                 \
            "Screen-space ray tracing (SSR, SSGI): march rays through the depth buffer. Off: rays go straight to the "  \
@@ -124,9 +131,9 @@ struct ScreenImages {
     gpu::History lit;      ///< of the last frame, reprojected by the hit's motion
     gpu::Image
         lightMips;  ///< from makeLightMips, of the image that hits read; blurs the light at hits of cones (Ray.spread)
-    bool certainNext = false;        ///< misses go on to a source that finds the actual hit
-    bool leavesOutMirrors = false;   ///< smooth metals answer no rays: what they show is the camera's alone
-    bool leavesOutEmitters = false;  ///< hits do not read what surfaces with materialFlagEmitter emit
+    bool certainNext = false;       ///< misses go on to a source that finds the actual hit
+    bool leavesOutMirrors = false;  ///< smooth metals answer no rays: what they show is the camera's alone
+    EmittersAtHits emitters = EmittersAtHits::all;
 };
 
 /// Binds what screen_light.glsl reads and the back depth, and sets its constants. params: `view` and `previousValid`

@@ -11,6 +11,7 @@ layout(constant_id = 0) const uint lobe = 0u;
 // Constants, because CPU devices execute the code of all branches.
 layout(constant_id = 1) const uint spreads = 0u;
 layout(constant_id = 2) const uint parallax = 0u;
+layout(constant_id = 3) const uint highlights = 0u;  // rays may be Ray.highlighted
 
 layout(local_size_x = 64) in;
 layout(scalar) uniform ParamsBlock {
@@ -19,6 +20,7 @@ layout(scalar) uniform ParamsBlock {
 uniform sampler2D depth;
 uniform sampler2D material;
 uniform samplerCubeArray probeLobes;
+uniform samplerCubeArray probeMatte;  // as probes.diffuse
 uniform samplerCubeArray probeDistance;
 layout(rg32ui) uniform readonly uimage2DArray direction;
 #include "effects/lobe/ray_origin.glsl"
@@ -32,12 +34,24 @@ uniform sampler2D probeIrradiance;
 
 uint probeCount() { return params.probes.count; }
 ProbeParams loadProbe(uint index) { return params.probes.probes[index]; }
+
+bool highlighted = false;  // the ray
+
+vec4 probeRadiance(vec4 at, float level) {
+    vec4 radiance = textureLod(probeLobes, at, level);
+    if (highlights != 0u) {
+        radiance = highlighted ? textureLod(probeMatte, at, 0.0) : radiance;
+    }
+    return radiance;
+}
+#define PROBE_RADIANCE(at, level) probeRadiance(at, level)
 #include "effects/probe/probes.glsl"
 
 const float seenCertainly = 0.5;
 
 ProbeAnswer askProbes(ivec3 slot, Ray ray) {
     ivec2 pixel = slot.xy;
+    highlighted = ray.highlighted;
     float d = texelFetch(depth, pixel, 0).r;
     vec3 p = rayOrigin(slot, d, params.view);
     bool hemisphere = spreads != 0u && lobe == lobeDiffuse && ray.spread > 0.0;

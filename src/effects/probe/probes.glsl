@@ -4,6 +4,11 @@
 #ifndef REFLET_PROBES_GLSL
 #define REFLET_PROBES_GLSL
 
+// The includer may define it to read other cubes.
+#ifndef PROBE_RADIANCE
+#define PROBE_RADIANCE(at, level) textureLod(probeLobes, at, level)
+#endif
+
 #include "effects/cube_map/cube_map.glsl"
 #include "effects/probe/probes.h"
 
@@ -152,7 +157,7 @@ void sampleProbe(uint i, ProbeParams probe, ProbeQuery q, inout float share, ino
     }
     ProbePoint point = endOfRay(i, probe, q);
     share *= point.certainty;
-    vec4 seen = share * textureLod(probeLobes, vec4(point.direction, float(i)), lobeLevel(probeLobes, q.roughness));
+    vec4 seen = share * PROBE_RADIANCE(vec4(point.direction, float(i)), lobeLevel(probeLobes, q.roughness));
     seen.rgb *= probe.radianceScale;
     radiance += seen;
     hitDistance += seen.a * point.distance;

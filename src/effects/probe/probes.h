@@ -71,8 +71,9 @@ namespace reflet {
 
 /// Cube maps for passes to read.
 struct ProbeMaps {
-    gpu::Image lobes;       ///< of CubeMap (cube_map.h): radiance · alpha; alpha: 1 surface, 0 sky
-    gpu::Image diffuse;     ///< its first level, for diffuse rays: without what lamps stand for (lampEmitter)
+    gpu::Image lobes;    ///< of CubeMap (cube_map.h): radiance · alpha; alpha: 1 surface, 0 sky
+    gpu::Image diffuse;  ///< its first level without what lamps stand for (lampEmitter): for diffuse rays, and others
+                         ///< with Ray.highlighted
     gpu::Image irradiance;  ///< of CubeMap, with alpha as well; as `diffuse`
     gpu::Image
         distance;      ///< R32F cube array: 1 / metres from the probe, 0: sky; none: no probe has ProbeParallax::depth

@@ -228,9 +228,9 @@ vec3 lightAtEnd(LitPoint at, CachedLight known) {
     return at.surface.diffuse * known.radiance + at.surface.specular * mirrored;
 }
 
-// Radiance along the ray from its hit. hitDistance: metres; negative: miss. told: gets the cells that the path tells
-// what it finds.
-vec3 followPath(SceneRay ray, inout uint random, inout ToldCells told, out float hitDistance) {
+// Radiance along the ray from its hit. highlighted: of the ray. hitDistance: metres; negative: miss. told: gets the cells
+// that the path tells what it finds.
+vec3 followPath(SceneRay ray, bool highlighted, inout uint random, inout ToldCells told, out float hitDistance) {
     vec3 radiance = vec3(0.0);
     vec3 throughput = vec3(1.0);
     hitDistance = -1.0;
@@ -244,7 +244,8 @@ vec3 followPath(SceneRay ray, inout uint random, inout ToldCells told, out float
         float width = params.mips != 0u ? ray.width + ray.spread * hit.distance : 0.0;
         SceneSurface found = sceneSurface(hit, ray.direction, width);
         vec3 emitted = params.view.preExposure * found.emissive;
-        vec3 byLamps = anyEmitters != 0u && diffuse && found.emitter ? emitted : vec3(0.0);
+        bool lampsStandFor = diffuse || (highlighted && bounce == 0u);
+        vec3 byLamps = anyEmitters != 0u && lampsStandFor && found.emitter ? emitted : vec3(0.0);
         vec3 shown;
         if (reuseScreen != 0u && looksTheSame(found) && (bounce == 0u || params.fromPrevious != 0u) && screenLight(found, shown)) {
             return radiance + throughput * max(shown - byLamps, vec3(0.0));
@@ -279,10 +280,10 @@ vec3 followPath(SceneRay ray, inout uint random, inout ToldCells told, out float
     }
 }
 
-vec3 radianceAlong(SceneRay ray, inout uint random, out float hitDistance) {
+vec3 radianceAlong(SceneRay ray, bool highlighted, inout uint random, out float hitDistance) {
     ToldCells told;
     told.count = 0u;
-    vec3 radiance = followPath(ray, random, told, hitDistance);
+    vec3 radiance = followPath(ray, highlighted, random, told, hitDistance);
     tellCells(told, radiance, random);
     return radiance;
 }
@@ -326,7 +327,7 @@ RayAnswer answerRay(inout WaitingRay w, Ray ray) {
     uint random = hashPixel(uvec2(w.slot.xy), stream, params.own.frame);
     float hitDistance;
     SceneRay traced = rayOfPixel(w.slot, ray);
-    vec3 radiance = radianceAlong(traced, random, hitDistance);
+    vec3 radiance = radianceAlong(traced, ray.highlighted, random, hitDistance);
     if (hitDistance < 0.0) {
         w.lost = false;
         w.clear = largestHalf;  // known to hit nothing
