@@ -100,7 +100,12 @@ ordered_json animationsOf(const Scene& scene) {
         for (const Channel& channel : animation.channels) {
             seconds = std::max(seconds, channel.times.back());
         }
-        animations.push_back({{"name", animation.name}, {"seconds", seconds}, {"channels", animation.channels.size()}});
+        for (const PropertyChannel& channel : animation.properties) {
+            seconds = std::max(seconds, channel.keys.times.back());
+        }
+        animations.push_back({{"name", animation.name},
+                              {"seconds", seconds},
+                              {"channels", animation.channels.size() + animation.properties.size()}});
     }
     return animations;
 }

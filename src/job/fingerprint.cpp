@@ -177,13 +177,18 @@ private:
     }
 
     void add(const Animation& animation) {
-        const auto& [name, channels] = animation;
-        all(name, channels);
+        const auto& [name, channels, properties] = animation;
+        all(name, channels, properties);
+    }
+
+    void add(const PropertyChannel& channel) {
+        const auto& [property, texture, targets, keys] = channel;
+        all(property, texture, targets, keys);
     }
 
     void add(const Skin& skin) {
-        const auto& [joints, inverseBind] = skin;
-        all(joints, inverseBind);
+        const auto& [joints, inverseBind, shownBy] = skin;
+        all(joints, inverseBind, shownBy);
     }
 
     void add(const Instance& instance) {
@@ -230,13 +235,13 @@ private:
 
 void addTo(Fingerprint& print, const Scene& scene) {
     const auto& [name, origin, fromFile, images, samplers, materials, meshes, instances, lamps, cameras, sun,
-                 environment, nodes, animations, skins, extensions, variants] = scene;
+                 environment, nodes, animations, resting, skins, extensions, variants] = scene;
     (void)extensions;
     (void)origin;    // of coordinates that are not in the picture
     (void)fromFile;  // it does not change radiance
     (void)variants;  // names alone
     Adder(print).all(fingerprintVersion, name, images, samplers, materials, meshes, instances, lamps, cameras, sun,
-                     environment, nodes, animations, skins);
+                     environment, nodes, animations, resting, skins);
 }
 
 void addTo(Fingerprint& print, const View& view) {

@@ -41,6 +41,22 @@ bool shinesThrough(const ViewInputs& in, const Settings& settings) {
     return blended || drawsGlass(in.draws, settings.transmission, settings.materials);
 }
 
+/// Of a face of a probe: a map of the whole scene, which all faces share, where it is as fine as the face's own. A face
+/// that sees little keeps its own, into which few things are drawn. True if `sun` and `shadow` are those of the former.
+bool sharesSunMap(const ViewInputs& in, SunShadowParams& sun, ShadowSettings& shadow) {
+    if (!in.forProbe || shadow.extent > 0.0F) {
+        return false;
+    }
+    const uint32_t resolution = 2 * shadow.resolution;
+    const ShadowMapParams whole = wholeSunShadow(in.draws.boundsW, in.sunDirection, resolution);
+    if (whole.texelSize > sun.maps[0].texelSize) {
+        return false;
+    }
+    sun.maps[0] = whole;
+    shadow.resolution = resolution;
+    return true;
+}
+
 void drawSunMaps(gpu::PassList& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
                  ViewImages& out) {
     ShadowSettings shadow = settings.shadow;
@@ -53,7 +69,8 @@ void drawSunMaps(gpu::PassList& f, DirectViewStore& own, const ViewInputs& in, c
         return;
     }
     const bool through = shinesThrough(in, settings);
-    out.shadowMap = drawShadowMap(f, own.shadowMap, in.draws, out.sun, shadow, through);
+    gpu::KeptImage& map = sharesSunMap(in, out.sun, shadow) ? own.sharedShadowMap : own.shadowMap;
+    out.shadowMap = drawShadowMap(f, map, in.draws, out.sun, shadow, through);
     if (lighting::readsShadowRange(shadow)) {
         out.shadowRange = drawShadowRange(f, own.shadowRange, out.shadowMap, in.draws, out.sun, shadow, through);
     }

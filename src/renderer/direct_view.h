@@ -64,6 +64,7 @@ SceneLights sceneLights(const ViewInputs& in, const Settings& settings);
 /// What one view keeps for the next frame: shadow maps while they are valid, and the history of the sun's visibility.
 struct DirectViewStore {
     gpu::KeptImage shadowMap{"shadow_map"};
+    gpu::KeptImage sharedShadowMap{"shared_shadow_map"};  ///< of the whole scene, for faces of probes
     gpu::KeptImage shadowRange{"shadow_range"};
     BlendShadowStore blendShadow;
     gpu::KeptImage lampShadowMap{"lamp_shadow_map"};

@@ -59,6 +59,13 @@ gpu::SamplerInfo samplerInfo(const Sampler& s) {
             .maxLod = s.mips ? VK_LOD_CLAMP_NONE : 0.0F};
 }
 
+// The material shows the live image of its camera.
+void showLive(MaterialParams& params) {
+    params.emissive = vec3(1.0F);
+    params.preExposed = 1.0F;
+    params.textured |= 1U << slotEmissive;
+}
+
 }  // namespace
 
 LampParams lampParams(const Lamp& lamp) {
@@ -179,6 +186,22 @@ void GpuScene::setTextureFilter(const TextureFilter& filter) {
     }
 }
 
+MaterialParams GpuScene::paramsOf(const Material& material, uint32_t index) const {
+    MaterialParams params = materialParams(material);
+    params.glass = params.transmission > 0.0F ? glassKind(material, index + 1) : 0;
+    params.emitter = emitters_->standFor(index) ? 1U : 0U;
+    return params;
+}
+
+void GpuScene::poseMaterial(const Material& material, uint32_t index) {
+    const MaterialBinding& binding = materialBindings_.at(index);
+    MaterialParams params = paramsOf(material, index);
+    if (binding.live) {
+        showLive(params);
+    }
+    std::memcpy(materials_.bytes().data() + binding.offset, &params, sizeof(params));
+}
+
 void GpuScene::uploadMaterials(const Scene& scene, const std::function<void(const std::string&)>& warn) {
     const auto count = static_cast<uint32_t>(scene.materials.size());
     materialPool_ = makeMaterialPool(device_, std::max(count, 1U));
@@ -187,20 +210,22 @@ void GpuScene::uploadMaterials(const Scene& scene, const std::function<void(cons
     std::vector<std::optional<size_t>> live(count);
     std::vector<std::byte> blocks(std::max<size_t>(count, 1) * stride);
     for (uint32_t i = 0; i < count; ++i) {
-        MaterialParams params = materialParams(scene.materials[i]);
-        params.glass = params.transmission > 0.0F ? glassKind(scene.materials[i], i + 1) : 0;
-        params.emitter = emitters_->standFor(i) ? 1U : 0U;
+        MaterialParams params = paramsOf(scene.materials[i], i);
         live[i] = livePictureOf(scene, scene.materials[i], warn);
         if (live[i]) {
-            params.emissive = vec3(1.0F);
-            params.preExposed = 1.0F;
-            params.textured |= 1U << slotEmissive;
+            showLive(params);
         }
         draws_.textureSlots |= params.textured;
         draws_.materialFeatures |= materialFeatures(scene.materials[i]);
         std::memcpy(blocks.data() + i * stride, &params, sizeof(params));
     }
-    materials_ = gpu::uploadBuffer(device_, blocks, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, "materials");
+    if (hasAnimatedMaterials(scene)) {
+        materials_ = gpu::Buffer(device_, blocks.size(), VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, gpu::MemoryUse::upload,
+                                 "materials");
+        std::ranges::copy(blocks, materials_.bytes().begin());
+    } else {
+        materials_ = gpu::uploadBuffer(device_, blocks, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, "materials");
+    }
     if (count == 0) {
         return;
     }

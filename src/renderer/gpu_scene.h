@@ -82,6 +82,9 @@ private:
     void uploadMaterials(const Scene& scene, const std::function<void(const std::string&)>& warn);
     std::optional<size_t> livePictureOf(const Scene& scene, const Material& material,
                                         const std::function<void(const std::string&)>& warn);
+    /// As the shaders have it now.
+    [[nodiscard]] MaterialParams paramsOf(const Material& material, uint32_t index) const;
+    void poseMaterial(const Material& material, uint32_t index);
     void addLamps(const Scene& scene, const std::function<void(const std::string&)>& warn);
     void addDraws(const Scene& scene);
     void addSkinned(const Scene& scene, std::vector<vec3>& positions, std::vector<VertexAttributes>& attributes);
@@ -102,7 +105,7 @@ private:
     gpu::Buffer previousPositions_;  ///< same count; none without deformed instances
     gpu::Buffer attributes_;         ///< same count
     gpu::Buffer indices_;
-    gpu::Buffer materials_;
+    gpu::Buffer materials_;  ///< mapped if materials are animated
     std::vector<MeshRange> ranges_;
     std::vector<std::vector<Aabb>> pieces_;  ///< meshPieces of every mesh
     SkinnedVertices skinned_;

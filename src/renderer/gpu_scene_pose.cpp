@@ -44,9 +44,10 @@ void GpuScene::pose(const Scene& scene, const ScenePose& now, const ScenePose& b
         draws_.boundsW.add(draw.boundsW);
     }
     for (size_t i = 0; i < lampSources_.size(); ++i) {
-        const Lamp lamp = posed(scene.lamps[lampSources_[i]], now);
-        lamps_.lamps[i].position = lamp.position;
-        lamps_.lamps[i].toLamp = -lamp.direction;
+        lamps_.lamps[i] = lampParams(posed(scene.lamps[lampSources_[i]], now));
+    }
+    for (const auto& [index, material] : now.properties.materials) {
+        poseMaterial(material, index);
     }
     emitters_->pose(now);
     for (LivePicture& picture : live_) {

@@ -126,7 +126,7 @@ const TracedScene* Renderer::tracedScene(const Settings& settings) {
     if (pose_ && tracedTime_ != pose_->time) {
         tracedTime_ = pose_->time;
         traced_->rays.pose(device, source_, *pose_);
-        traced_->surfaces.pose(device, source_, scene_);
+        traced_->surfaces.pose(device, source_, scene_, *pose_);
     }
     return &*traced_;
 }

@@ -24,7 +24,7 @@ enum class Interpolation : uint8_t { step, linear, cubicSpline };
 
 /// Keyframes of one property of one node. The value is constant before the first and after the last key.
 struct Channel {
-    enum class Target : uint8_t { translation, rotation, scale, weights };
+    enum class Target : uint8_t { translation, rotation, scale, weights, property };
 
     uint32_t node = 0;
     Target target = Target::translation;
@@ -36,15 +36,72 @@ struct Channel {
     std::vector<float> weights;
 };
 
+/// What a PropertyChannel changes: a factor of materials, up to `uvScale`, or what is at nodes. scene/property.h
+/// applies them.
+enum class Property : uint8_t {
+    baseColor,
+    metallic,
+    roughness,
+    normalScale,
+    occlusionStrength,
+    alphaCutoff,
+    emissiveFactor,    ///< Material::emissive is the product
+    emissiveStrength,  ///< of both
+    ior,
+    specular,
+    specularColor,
+    transmission,
+    thickness,
+    attenuationColor,
+    attenuationDistance,
+    dispersion,
+    clearcoat,
+    clearcoatRoughness,
+    clearcoatNormalScale,
+    sheenColor,
+    sheenRoughness,
+    anisotropy,
+    anisotropyRotation,
+    iridescence,
+    iridescenceIor,
+    iridescenceThinnest,
+    iridescenceThickest,
+    diffuseTransmission,
+    diffuseTransmissionColor,
+    uvOffset,  ///< TextureSlot::uvTransform follows from all three
+    uvRotation,
+    uvScale,
+    lightColor,      ///< Lamp::intensity is the product
+    lightIntensity,  ///< of both
+    lightRange,
+    innerCone,
+    outerCone,
+    fovY,
+    near,
+    far,
+    orthographicHeight,
+    visible,  ///< of the node and all below it; 0: not
+};
+
+/// Keyframes of a property (KHR_animation_pointer).
+struct PropertyChannel {
+    Property property = Property::baseColor;
+    uint32_t texture = 0;           ///< of uv…: index into materialTextures
+    std::vector<uint32_t> targets;  ///< indices into Scene::materials, or of nodes that have the lamp or camera
+    Channel keys;                   ///< without a node
+};
+
 struct Animation {
     std::string name;
     std::vector<Channel> channels;
+    std::vector<PropertyChannel> properties;
 };
 
 /// Joints that deform meshes, with the inverse bind matrix of each (mesh to joint in the bind pose).
 struct Skin {
     std::vector<uint32_t> joints;   ///< indices into Scene::nodes; not empty
     std::vector<mat4> inverseBind;  ///< one per joint
+    int32_t shownBy = -1;           ///< node whose visibility the skin's meshes have; < 0: always visible
 };
 
 /// A joint that moves a vertex.

@@ -49,8 +49,13 @@ bool mayBeEmitter(const Material& m) {
 std::vector<bool> eligible(const Scene& scene) {
     std::vector<bool> materials;
     std::ranges::transform(scene.materials, std::back_inserter(materials), mayBeEmitter);
+    for (const auto& [index, material] : scenePose(scene, 0.0).properties.materials) {
+        materials[index] = false;
+    }
+    const std::vector<bool> appears = nodesThatAppear(scene);
     for (const Instance& instance : scene.instances) {
-        if (isDeformed(instance)) {
+        const bool hides = instance.node >= 0 && !appears.empty() && appears[static_cast<size_t>(instance.node)];
+        if (hides || isDeformed(instance)) {
             materials[scene.meshes[instance.mesh].material] = false;
         }
     }

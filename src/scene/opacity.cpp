@@ -1,6 +1,8 @@
 // Finds materials that are blended by name only.
 #include "scene/opacity.h"
 
+#include "scene/property.h"
+
 #include <algorithm>
 #include <map>
 #include <vector>
@@ -27,9 +29,10 @@ bool alphaIsOne(const Mesh& mesh) {
 void makeOpaqueWhereAlphaIsOne(Scene& scene) {
     std::map<int32_t, bool> images;  // each is looked through once
     std::vector<bool> opaque(scene.materials.size());
+    const std::vector<bool> fades = materialsWithAnimated(scene, Property::baseColor);
     for (size_t i = 0; i < scene.materials.size(); ++i) {
         const Material& material = scene.materials[i];
-        if (!material.blended || material.baseColor.a < 1.0F) {
+        if (!material.blended || material.baseColor.a < 1.0F || fades[i]) {
             continue;
         }
         const int32_t image = material.baseColorTexture.image;

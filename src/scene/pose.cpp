@@ -26,6 +26,7 @@ void apply(const Channel& channel, double time, Node& node) {
             node.scale = glm::dvec3(value);
             break;
         case Channel::Target::weights:  // of instances, not of the node
+        case Channel::Target::property:
             break;
     }
 }
@@ -51,6 +52,32 @@ const mat4& placeOf(int32_t node, const ScenePose& pose) {
 
 mat4 placeOf(const Instance& instance, const ScenePose& pose) {
     return finiteOr(glm::dmat4(placeOf(instance.node, pose)) * glm::dmat4(instance.objectToNode), mat4(1.0F));
+}
+
+bool isHidden(int32_t node, const ScenePose& pose) {
+    return node >= 0 && !pose.hidden.empty() && pose.hidden[static_cast<size_t>(node)];
+}
+
+/// Everything is where the origin was.
+mat4 collapsed(const mat4& m) {
+    mat4 point(0.0F);
+    point[3] = m[3];
+    return point;
+}
+
+/// Fills `hidden`. Nodes whose visibility is animated count as moving.
+void hide(const Scene& scene, ScenePose& pose) {
+    if (pose.properties.visible.empty()) {
+        return;
+    }
+    pose.hidden.assign(scene.nodes.size(), false);
+    for (const auto& [node, visible] : pose.properties.visible) {
+        pose.hidden[static_cast<size_t>(node)] = !visible;
+        pose.moving[static_cast<size_t>(node)] = true;
+    }
+    for (size_t i = 0; i < scene.nodes.size(); ++i) {
+        pose.hidden[i] = pose.hidden[i] || isHidden(scene.nodes[i].parent, pose);
+    }
 }
 
 // Automatic focus stays automatic when the view is posed again, at another time.
@@ -105,6 +132,9 @@ double animationDuration(const Scene& scene) {
         for (const Channel& channel : animation.channels) {
             last = std::max<double>(last, channel.times.back());
         }
+        for (const PropertyChannel& channel : animation.properties) {
+            last = std::max<double>(last, channel.keys.times.back());
+        }
     }
     return last;
 }
@@ -130,6 +160,9 @@ ScenePose scenePose(const Scene& scene, double time) {
             pose.moving[channel.node] = true;
         }
     }
+    pose.properties = animatedProperties(
+        scene, [&](const PropertyChannel& channel) { return vec4(sampleChannel(channel.keys, pose.time)); });
+    hide(scene, pose);
     std::vector<glm::dmat4> toWorld;
     toWorld.reserve(nodes.size());
     for (size_t i = 0; i < nodes.size(); ++i) {
@@ -140,9 +173,10 @@ ScenePose scenePose(const Scene& scene, double time) {
         pose.nodeToWorld.push_back(finiteOr(toWorld.back(), mat4(1.0F)));
     }
     for (const Instance& instance : scene.instances) {
-        pose.objectToWorld.push_back(instance.skin >= 0              ? mat4(1.0F)
-                                     : isMoving(instance.node, pose) ? placeOf(instance, pose)
-                                                                     : instance.objectToWorld);
+        const mat4 place = instance.skin >= 0              ? mat4(1.0F)
+                           : isMoving(instance.node, pose) ? placeOf(instance, pose)
+                                                           : instance.objectToWorld;
+        pose.objectToWorld.push_back(isHidden(instance.node, pose) && instance.skin < 0 ? collapsed(place) : place);
         const Channel* weights = instance.node >= 0 ? weightsOf[static_cast<size_t>(instance.node)] : nullptr;
         pose.weights.push_back(instance.weights.empty() || weights == nullptr ? instance.weights
                                                                               : sampleWeights(*weights, pose.time));
@@ -150,10 +184,20 @@ ScenePose scenePose(const Scene& scene, double time) {
     for (const Skin& skin : scene.skins) {
         std::vector<mat4>& joints = pose.skins.emplace_back();
         for (size_t j = 0; j < skin.joints.size(); ++j) {
-            joints.push_back(finiteOr(toWorld[skin.joints[j]] * glm::dmat4(skin.inverseBind[j]), mat4(1.0F)));
+            const mat4 joint = finiteOr(toWorld[skin.joints[j]] * glm::dmat4(skin.inverseBind[j]), mat4(1.0F));
+            joints.push_back(isHidden(skin.shownBy, pose) ? collapsed(joint) : joint);
         }
     }
     return pose;
+}
+
+const Material& materialAt(const Scene& scene, const ScenePose* pose, uint32_t material) {
+    const Material& resting = scene.materials.at(material);
+    if (pose == nullptr) {
+        return resting;
+    }
+    const auto found = pose->properties.materials.find(material);
+    return found != pose->properties.materials.end() ? found->second : resting;
 }
 
 bool isDeformed(const Instance& instance) {
@@ -224,6 +268,12 @@ Camera posed(Camera camera, const ScenePose& pose) {
     if (isMoving(camera.node, pose)) {
         setTransform(camera, placeOf(camera.node, pose));
     }
+    if (const auto found = pose.properties.lenses.find(camera.node); found != pose.properties.lenses.end()) {
+        const auto& [resting, now] = found->second;
+        for (float Camera::*member : {&Camera::fovY, &Camera::near, &Camera::far, &Camera::orthographicHeight}) {
+            camera.*member = camera.*member == resting.*member ? now.*member : camera.*member;
+        }
+    }
     return camera;
 }
 
@@ -231,6 +281,14 @@ Lamp posed(Lamp lamp, const ScenePose& pose) {
     if (isMoving(lamp.node, pose)) {
         setTransform(lamp, placeOf(lamp.node, pose));
     }
+    if (const auto found = pose.properties.lights.find(lamp.node); found != pose.properties.lights.end()) {
+        const Lamp& now = found->second.now;
+        lamp.intensity = now.intensity;
+        lamp.range = now.range;
+        lamp.innerAngle = now.innerAngle;
+        lamp.outerAngle = now.outerAngle;
+    }
+    lamp.intensity = isHidden(lamp.node, pose) ? vec3(0.0F) : lamp.intensity;
     return lamp;
 }
 
@@ -238,6 +296,11 @@ Sun posed(Sun sun, const ScenePose& pose) {
     if (isMoving(sun.node, pose)) {
         sun.direction = unitOr(-vec3(placeOf(sun.node, pose)[2]), vec3(0, 0, -1));
     }
+    const auto found = pose.properties.lights.find(sun.node);
+    if (found != pose.properties.lights.end() && sun.irradiance == found->second.resting.intensity) {
+        sun.irradiance = found->second.now.intensity;
+    }
+    sun.irradiance = isHidden(sun.node, pose) ? vec3(0.0F) : sun.irradiance;
     return sun;
 }
 
@@ -277,6 +340,9 @@ Scene frozen(const Scene& scene, double time) {
         instance.weights.clear();
         instance.node = -1;
     }
+    for (const auto& [index, material] : pose.properties.materials) {
+        still.materials[index] = material;
+    }
     for (Lamp& lamp : still.lamps) {
         lamp = posed(lamp, pose);
         lamp.node = -1;
@@ -291,6 +357,7 @@ Scene frozen(const Scene& scene, double time) {
     }
     still.nodes.clear();
     still.animations.clear();
+    still.resting.clear();
     still.skins.clear();
     return still;
 }

@@ -2,6 +2,7 @@
 // Pure functions.
 #pragma once
 
+#include "scene/property.h"
 #include "scene/scene.h"
 
 #include <cstdint>
@@ -24,11 +25,16 @@ double loopedTime(const Scene& scene, double time);
 struct ScenePose {
     double time = 0.0;                        ///< from loopedTime
     std::vector<mat4> nodeToWorld;            ///< per node of Scene::nodes
-    std::vector<bool> moving;                 ///< per node: it or an ancestor has channels
+    std::vector<bool> moving;                 ///< per node: it or an ancestor has channels, visibility included
     std::vector<mat4> objectToWorld;          ///< per instance; the identity for skinned instances
     std::vector<std::vector<mat4>> skins;     ///< per skin and joint: bind pose to world
     std::vector<std::vector<float>> weights;  ///< per instance and morph target; empty: it keeps its shape
+    AnimatedProperties properties;
+    std::vector<bool> hidden;  ///< per node; empty: none. Instances there are points: their matrix has rank 0
 };
+
+/// The material as the animations have it now.
+const Material& materialAt(const Scene& scene, const ScenePose* pose, uint32_t material);
 
 /// If several channels animate the same property of a node, the last one wins.
 ScenePose scenePose(const Scene& scene, double time);
@@ -58,7 +64,8 @@ std::vector<Aabb> jointBounds(const Mesh& mesh, size_t joints);
 /// for instances with a skin.
 Aabb instanceBounds(const Scene& scene, const ScenePose& pose, size_t instance, const std::vector<Aabb>& byJoint);
 
-/// Moved with their node, if it is animated; otherwise unchanged.
+/// Moved with their node, if it is animated, and with animated lens or light; otherwise unchanged. What the view has
+/// set otherwise than the scene is not animated. A lamp of a hidden node is dark.
 Camera posed(Camera camera, const ScenePose& pose);
 Lamp posed(Lamp lamp, const ScenePose& pose);
 Sun posed(Sun sun, const ScenePose& pose);

@@ -78,6 +78,12 @@ Aabb Scene::bounds() const {
     return result;
 }
 
+std::array<vec3, 2> uvTransformOf(const vec2& offset, double rotation, const vec2& scale) {
+    const double cosine = std::cos(rotation);
+    const double sine = std::sin(rotation);
+    return {vec3(cosine * scale.x, sine * scale.y, offset.x), vec3(-sine * scale.x, cosine * scale.y, offset.y)};
+}
+
 void setTransform(Camera& camera, const mat4& toWorld) {
     camera.position = vec3(toWorld[3]);
     const vec3 forward = unitOr(-vec3(toWorld[2]), vec3(0, 0, -1));

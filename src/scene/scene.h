@@ -54,6 +54,10 @@ struct TextureSlot {
     std::array<vec3, 2> uvTransform{vec3(1, 0, 0), vec3(0, 1, 0)};
 };
 
+/// KHR_texture_transform. The sine in u' is positive, as in the extension's example, its wording ("counter-clockwise",
+/// with v down) and the common viewers; the matrix in early versions has it negative.
+std::array<vec3, 2> uvTransformOf(const vec2& offset, double rotation, const vec2& scale);
+
 /// KHR_materials_transmission and KHR_materials_volume. With a thickness the surface bounds a volume of the material, a
 /// closed mesh whose front faces look outwards; without, it is a sheet that is thinner than a pixel.
 struct Transmission {
@@ -279,6 +283,8 @@ struct Scene {
     Environment environment;
     std::vector<Node> nodes;            ///< parents first; empty if there are neither animations nor skins
     std::vector<Animation> animations;  ///< all play at once
+    /// Parts of animated values that no animation changes, such as the strength of an animated colour; one key each.
+    std::vector<PropertyChannel> resting;
     std::vector<Skin> skins;
     std::vector<std::string> extensions;  ///< that the file says it uses
     std::vector<std::string> variants;    ///< names of the file's material variants, whether chosen or not

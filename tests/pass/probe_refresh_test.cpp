@@ -2,7 +2,12 @@
 #include "pass/probe_room.h"
 
 #include "compare/compare.h"
+#include "renderer/renderer.h"
 #include "scene/builtin.h"
+#include "scene/builtin/shapes.h"
+#include "support/device_fixture.h"
+
+#include <algorithm>
 
 namespace reflet::test::probe_refresh_test {
 namespace {
@@ -48,6 +53,24 @@ TEST(Probe, IsCapturedAnewWhenLightChangesAndOnlyThen) {
     EXPECT_NE(atlas(0), atlas(1));
     EXPECT_EQ(atlas(1), atlas(2));
     EXPECT_EQ(atlas(0), atlas(3));
+}
+
+class ProbePasses : public DeviceTest {};
+
+TEST_F(ProbePasses, FacesThatSeeMuchOfTheSceneShareAShadowMap) {
+    const auto maps = [](const vec3& half, const vec3& eye) {
+        Scene scene = sceneOf(lambertMaterial(vec3(0.5F)), builtin::box(half));
+        View view = defaultView(scene);
+        view.sun = {.direction = glm::normalize(vec3(0.3F, -1, 0.2F)), .irradiance = vec3(2.0F)};
+        view.probes = {{{eye, {-half, half}}}};
+        Renderer renderer(device(), scene, [](const std::string&) {});
+        renderer.listPasses();
+        renderer.render(view, {60, 34}, 0, probeSettings({"probes.resolution=32", "shadow.filter=hard"}));
+        return std::ranges::count(renderer.frame().listing().passes, "probe.shadow_map", &gpu::PassListing::Pass::name);
+    };
+    EXPECT_EQ(maps(vec3(4.0F), vec3(0.0F)), 2) << "one map: opaque surfaces, then others";
+    EXPECT_GT(maps({40, 2, 40}, vec3(0.0F)), 2) << "the view down has its own";
+    expectSilentValidation("shared shadow maps");
 }
 
 }  // namespace

@@ -49,9 +49,33 @@ TEST(GltfPublic, AMaterialUsesAnyTwoSetsOfTextureCoordinates) {
     const VertexAttributes& v = loaded.scene.meshes[0].attributes[0];
     EXPECT_EQ((m.baseColorTexture.uvSet == 0 ? v.uv0 : v.uv1).x, 3.0F);
     EXPECT_EQ((m.emissiveTexture.uvSet == 0 ? v.uv0 : v.uv1).x, 1.0F);
-    material["normalTexture"] = {{"index", texture}, {"texCoord", 2}};
-    b.document["materials"][0] = material;
-    EXPECT_EQ(load(b).warnings.size(), 1U) << "three sets";
+}
+
+TEST(GltfPublic, OfThreeSetsOfTextureCoordinatesTheMostVisibleTexturesKeepTheirs) {
+    GltfBuilder b = triangle();
+    json& attributes = b.document["meshes"][0]["primitives"][0]["attributes"];
+    for (const int set : {0, 1, 2, 3}) {
+        const auto at = static_cast<float>(set);
+        attributes["TEXCOORD_" + std::to_string(set)] = b.addFloats({at, 0, at, 0, at, 0}, "VEC2");
+    }
+    const int texture = b.addTexture({255, 255, 255, 255});
+    materialOf(b) = {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", texture}, {"texCoord", 3}}}}},
+                     {"normalTexture", {{"index", texture}, {"texCoord", 1}}},
+                     {"occlusionTexture", {{"index", texture}, {"texCoord", 0}}},
+                     {"emissiveTexture", {{"index", texture}, {"texCoord", 2}}}};
+    const Loaded loaded = load(b);
+    const Material& m = loaded.scene.materials[0];
+    const VertexAttributes& v = loaded.scene.meshes[0].attributes[0];
+    const auto setOf = [&](const TextureSlot& slot) { return (slot.uvSet == 0 ? v.uv0 : v.uv1).x; };
+    EXPECT_EQ(setOf(m.baseColorTexture), 3.0F);
+    EXPECT_EQ(setOf(m.normalTexture), 1.0F);
+    EXPECT_EQ(setOf(m.occlusionTexture), 3.0F);
+    EXPECT_EQ(setOf(m.emissiveTexture), 3.0F);
+    ASSERT_EQ(loaded.warnings.size(), 1U);
+    EXPECT_TRUE(loaded.warnings[0].ends_with(
+        "materials[0]: occlusionTexture (TEXCOORD_0), emissiveTexture (TEXCOORD_2) will be drawn with TEXCOORD_3: a "
+        "material may have two sets, here TEXCOORD_3 and TEXCOORD_1"))
+        << loaded.warnings[0];
 }
 
 TEST(GltfPublic, ANodeThatIsNotVisibleHidesWhatIsBelowButCameras) {

@@ -60,6 +60,23 @@ TEST(GltfTangents, SplitAVertexWhereHandednessChanges) {
     EXPECT_EQ(mesh.positions[5], mesh.positions[2]);
 }
 
+TEST(GltfTangents, SplitAVertexWhereTrianglesWithoutACommonEdgeMeet) {
+    // A bow tie; the image is turned on its right wing.
+    GltfBuilder b = square({0.5F, 0.5F, 0, 0, 0, 1, 0, 0, 1, 0});
+    b.document["meshes"][0]["primitives"][0] = {
+        {"attributes",
+         {{"POSITION", b.addFloats({0, 0, 0, -1, 1, 0, -1, -1, 0, 1, -1, 0, 1, 1, 0}, "VEC3")},
+          {"NORMAL", b.addFloats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, "VEC3")},
+          {"TEXCOORD_0", b.addFloats({0.5F, 0.5F, 0, 0, 0, 1, 1, 0, 0, 0}, "VEC2")}}},
+        {"indices", b.addAccessor<uint8_t>({0, 1, 2, 0, 3, 4}, "SCALAR", ubyteType)},
+        {"material", 0}};
+    const Mesh mesh = meshOf(std::move(b));
+    ASSERT_EQ(mesh.indices, (std::vector<uint32_t>{0, 1, 2, 5, 3, 4}));
+    EXPECT_EQ(mesh.positions[5], mesh.positions[0]);
+    EXPECT_NEAR(glm::distance(mesh.attributes[0].tangent, vec4(1, 0, 0, 1)), 0.0F, 1e-6F);
+    EXPECT_NEAR(glm::distance(mesh.attributes[5].tangent, vec4(0, -1, 0, 1)), 0.0F, 1e-6F);
+}
+
 TEST(GltfTangents, AreMadeOnlyWhereTheMaterialHasANormalMap) {
     GltfBuilder b = square({0, 1, 1, 1, 1, 0, 0, 0});
     b.document["materials"][0] = json::object();

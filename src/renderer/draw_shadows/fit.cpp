@@ -117,6 +117,14 @@ ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, c
     return snappedMap(light, low, extent, resolution);
 }
 
+ShadowMapParams wholeSunShadow(const Aabb& sceneBounds, const vec3& direction, uint resolution) {
+    if (sceneBounds.empty()) {
+        return emptyMap(direction);
+    }
+    const LightSpace light = lightSpaceOf(sceneBounds, direction);
+    return snappedMap(light, vec2(light.scene.min), vec2(light.scene.size()), resolution);
+}
+
 ShadowMapParams centredSunShadow(const Aabb& sceneBounds, const vec3& direction, float extent, uint resolution) {
     if (sceneBounds.empty()) {
         return emptyMap(direction);

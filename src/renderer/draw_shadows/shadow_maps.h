@@ -25,6 +25,9 @@ float filterReach(const Aabb& sceneBounds, const ShadowSettings& settings, float
 ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, const vec3& direction, uint resolution,
                              float reach = 0.0F);
 
+/// The same for all of `sceneBounds`, whatever is visible.
+ShadowMapParams wholeSunShadow(const Aabb& sceneBounds, const vec3& direction, uint resolution);
+
 /// One map per cascade. Texels snap to a grid and keep their size under camera rotation, and under translation except
 /// for steps of 9 % in the scene's near and far distance.
 SunShadowParams fitCascades(const ViewParams& view, const Aabb& sceneBounds, const vec3& direction,

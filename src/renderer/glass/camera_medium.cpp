@@ -28,10 +28,10 @@ std::optional<CameraMedium> cameraMedium(VolumeFinder& volumes, const Scene& sce
     const auto materialOf = [&](uint32_t instance) { return scene.meshes[scene.instances[instance].mesh].material; };
     const uint32_t material = materialOf(around.back());
     CameraMedium medium{.draw = around.back(),
-                        .kind = glassKind(scene.materials[material], material + 1),
-                        .extinction = materialParams(scene.materials[material]).extinction};
+                        .kind = glassKind(materialAt(scene, pose, material), material + 1),
+                        .extinction = materialParams(materialAt(scene, pose, material)).extinction};
     if (around.size() > 1) {
-        medium.outerIor = std::max(scene.materials[materialOf(around[around.size() - 2])].ior, 1.0F);
+        medium.outerIor = std::max(materialAt(scene, pose, materialOf(around[around.size() - 2])).ior, 1.0F);
     }
     return medium;
 }

@@ -129,6 +129,9 @@ SceneSurfaces::SceneSurfaces(gpu::Device& device, const Scene& scene, const GpuS
         materials.push_back(m);
     }
     materials_ = gpu::uploadVector(device, materials, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "scene materials");
+    if (hasAnimatedMaterials(scene)) {
+        posedMaterials_ = std::move(materials);
+    }
     sampler_ = device.sampler({.mag = VK_FILTER_LINEAR,
                                .min = VK_FILTER_LINEAR,
                                .mip = VK_SAMPLER_MIPMAP_MODE_LINEAR,
@@ -136,9 +139,19 @@ SceneSurfaces::SceneSurfaces(gpu::Device& device, const Scene& scene, const GpuS
                                .v = VK_SAMPLER_ADDRESS_MODE_REPEAT});
 }
 
-void SceneSurfaces::pose(gpu::Device& device, const Scene& scene, const GpuScene& onDevice) {
+void SceneSurfaces::pose(gpu::Device& device, const Scene& scene, const GpuScene& onDevice, const ScenePose& now) {
     instances_ = gpu::uploadVector(device, sceneInstances(scene, onDevice.draws()), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
                                    "scene instances");
+    if (!posedMaterials_.empty()) {
+        for (const auto& [index, material] : now.properties.materials) {
+            MaterialParams& params = posedMaterials_[index].params;
+            const MaterialParams before = params;
+            params = materialParams(material);
+            params.emitter = before.emitter;
+            params.textured = before.textured;
+        }
+        materials_ = gpu::uploadVector(device, posedMaterials_, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "scene materials");
+    }
 }
 
 gpu::ComputePass& SceneSurfaces::bind(gpu::ComputePass& pass) const {

@@ -4,11 +4,13 @@
 
 #include "gpu/resource.h"
 #include "renderer/gpu_scene.h"
+#include "renderer/trace_scene/scene_materials.h"
 #include "scene/scene.h"
 
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace reflet::gpu {
 class Device;
@@ -24,8 +26,9 @@ public:
     SceneSurfaces(gpu::Device& device, const Scene& scene, const GpuScene& onDevice, uint32_t textureSize,
                   const std::function<void(const std::string&)>& warn);
 
-    /// Updates the instances to the transforms of the draws of `onDevice`. No frame that traces may be in flight.
-    void pose(gpu::Device& device, const Scene& scene, const GpuScene& onDevice);
+    /// Updates the instances to the transforms of the draws of `onDevice`, and the materials. No frame that traces may
+    /// be in flight.
+    void pose(gpu::Device& device, const Scene& scene, const GpuScene& onDevice, const ScenePose& now);
 
     /// Binds what scene_surfaces.glsl reads.
     gpu::ComputePass& bind(gpu::ComputePass& pass) const;
@@ -35,6 +38,7 @@ private:
     gpu::BufferView indices_;
     gpu::Buffer instances_;
     gpu::Buffer materials_;
+    std::vector<SceneMaterial> posedMaterials_;  ///< if materials are animated
     gpu::Texture colors_;
     gpu::Texture data_;
     VkSampler sampler_ = VK_NULL_HANDLE;

@@ -46,16 +46,17 @@ std::vector<float> readTimes(const GltfDocument& document, int input, GltfReport
     return times;
 }
 
-void checkComponents(const AccessorView& view, Channel::Target target, const std::string& part,
+void checkComponents(const AccessorView& view, Channel::Target target, int components, const std::string& part,
                      const GltfReport& report) {
     struct Rule {
         const char* name;
         int components;
     };
-    const Rule rule = target == Channel::Target::rotation  ? Rule{"rotation", 4}
-                      : target == Channel::Target::weights ? Rule{"weight", 1}
-                      : target == Channel::Target::scale   ? Rule{"scale", 3}
-                                                           : Rule{"translation", 3};
+    const Rule rule = target == Channel::Target::rotation   ? Rule{"rotation", 4}
+                      : target == Channel::Target::property ? Rule{"value of that property", components}
+                      : target == Channel::Target::weights  ? Rule{"weight", 1}
+                      : target == Channel::Target::scale    ? Rule{"scale", 3}
+                                                            : Rule{"translation", 3};
     if (view.components != rule.components) {
         report.fail(part, "has {} components, but a {} has {}", view.components, rule.name, rule.components);
     }
@@ -93,7 +94,8 @@ void makeUnit(Channel& channel, const std::string& part, const GltfReport& repor
 
 std::optional<Channel> readGltfChannel(const GltfDocument& document, const GltfChannelSource& source,
                                        GltfReport& report) {
-    const auto target = targetOf(source.channel.target_path);
+    const auto target =
+        source.components > 0 ? std::optional(Channel::Target::property) : targetOf(source.channel.target_path);
     if (!target) {
         report.warn("path " + source.channel.target_path, source.part + ".target.path",
                     "the channel will be ignored: {} is not supported", source.channel.target_path);
@@ -114,7 +116,7 @@ std::optional<Channel> readGltfChannel(const GltfDocument& document, const GltfC
     channel.times = readTimes(document, sampler.input, report);
     const std::string part = fmt::format("accessors[{}]", sampler.output);
     const AccessorView view = viewAccessor(document, sampler.output, report);
-    checkComponents(view, *target, part, report);
+    checkComponents(view, *target, source.components, part, report);
     const uint64_t each = (channel.interpolation == Interpolation::cubicSpline ? 3 : 1) *
                           (*target == Channel::Target::weights ? source.morphTargets : 1);
     if (view.count != each * channel.times.size()) {

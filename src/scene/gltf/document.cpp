@@ -41,9 +41,8 @@ struct UnsupportedExtension {
     std::string_view name;
     std::string_view consequence;
 };
-constexpr std::array<UnsupportedExtension, 3> unsupportedExtensions{
+constexpr std::array<UnsupportedExtension, 2> unsupportedExtensions{
     {{"EXT_texture_avif", "AVIF textures will be missing"},
-     {"KHR_animation_pointer", "animated materials, lamps and cameras will stand still"},
      {"EXT_lights_image_based", "image-based light will be missing"}}};
 
 /// How the rendered image differs from what the file asks for; empty if that is not known.

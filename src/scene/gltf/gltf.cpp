@@ -89,7 +89,8 @@ Scene readScene(const std::filesystem::path& path, const GltfOptions& options, G
     scene.extensions = document.model.extensionsUsed;
     scene.variants = variantNames(document.model);
     GltfMeshes meshes(document, materials, scene, report, chooseVariant(scene.variants, options.variant, report));
-    placeGltfNodes(document, roots, meshes, scene, report);
+    const GltfPlacement placement = placeGltfNodes(document, roots, meshes, scene, report);
+    bindGltfProperties(document, materials, placement, scene, report);
     checkGltfFocus(scene, report);
     makeOpaqueWhereAlphaIsOne(scene);
     if (scene.instances.empty()) {

@@ -25,9 +25,9 @@ struct GltfOptions {
 /// Loads the file and everything it refers to. Throws Error with one line that names the file and the invalid part;
 /// unless options.strict, only if nothing of the file can be drawn: otherwise it leaves out the smallest part that it
 /// can, with a warning. Never crashes or hangs on any input. URIs that leave the file's folder are refused.
-/// Supported: the extensions in knownExtensions (schema_tables.h); animations of translation, rotation, scale and
-/// morph weights; skins; PNG, JPEG, WebP and KTX 2 without Basis. An unsupported extension
-/// is an error if it is required and the file makes no sense without it, else a warning.
+/// Supported: the extensions in knownExtensions (schema_tables.h); animations of translation, rotation, scale,
+/// morph weights and what gltf/pointer.cpp lists; skins; PNG, JPEG, WebP and KTX 2 without Basis. An unsupported
+/// extension is an error if it is required and the file makes no sense without it, else a warning.
 Scene loadGltf(const std::filesystem::path& path, const GltfOptions& options = {});
 
 }  // namespace reflet

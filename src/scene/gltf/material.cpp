@@ -96,6 +96,16 @@ uint32_t GltfMaterials::use(int material, bool lit) {
     return materials_[{key, lit}] = static_cast<uint32_t>(scene_.materials.size() - 1);
 }
 
+std::vector<uint32_t> GltfMaterials::materialsOf(int material) const {
+    std::vector<uint32_t> result;
+    for (const bool lit : {false, true}) {
+        if (const auto found = materials_.find({material, lit}); found != materials_.end()) {
+            result.push_back(found->second);
+        }
+    }
+    return result;
+}
+
 Material GltfMaterials::convert(int material) {
     const tinygltf::Material& source = document_.materials.at(material);
     const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
@@ -233,14 +243,10 @@ int GltfMaterials::imageOf(const tinygltf::Texture& texture, const std::string& 
     return texture.source;
 }
 
-/// KHR_texture_transform: offset · rotation · scale. The sine in u' is positive, as in the extension's example, its
-/// wording ("counter-clockwise", with v down) and the common viewers; the matrix in early versions has it negative.
 void GltfMaterials::transformUv(TextureSlot& slot, const tinygltf::Value& transform) {
-    const double angle = numberOr(transform, "rotation", 0.0);
-    const double scaleU = numberAt(transform, "scale", 0, 1.0);
-    const double scaleV = numberAt(transform, "scale", 1, 1.0);
-    slot.uvTransform[0] = {std::cos(angle) * scaleU, std::sin(angle) * scaleV, numberAt(transform, "offset", 0, 0.0)};
-    slot.uvTransform[1] = {-std::sin(angle) * scaleU, std::cos(angle) * scaleV, numberAt(transform, "offset", 1, 0.0)};
+    const vec2 offset(numberAt(transform, "offset", 0, 0.0), numberAt(transform, "offset", 1, 0.0));
+    const vec2 scale(numberAt(transform, "scale", 0, 1.0), numberAt(transform, "scale", 1, 1.0));
+    slot.uvTransform = uvTransformOf(offset, numberOr(transform, "rotation", 0.0), scale);
     if (transform.Has("texCoord")) {
         slot.uvSet = static_cast<uint32_t>(std::max(transform.Get("texCoord").GetNumberAsInt(), 0));
     }

@@ -22,6 +22,9 @@ public:
     /// false for points and lines without normals, which show their base colour.
     uint32_t use(int material, bool lit = true);
 
+    /// Indices into Scene::materials of what `use` made of the file's material.
+    [[nodiscard]] std::vector<uint32_t> materialsOf(int material) const;
+
     /// The file's sets of texture coordinates that are the first and the second of a vertex of this material, an index
     /// into Scene::materials.
     [[nodiscard]] const std::array<uint32_t, 2>& uvSets(uint32_t material) const { return uvSets_[material]; }

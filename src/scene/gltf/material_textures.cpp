@@ -1,9 +1,12 @@
 // Sets of texture coordinates, and materials of KHR_materials_pbrSpecularGlossiness.
 #include "scene/gltf/material.h"
 
+#include "scene/gltf/texture_paths.h"
+
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <string_view>
+#include <tuple>
 
 namespace reflet {
 
@@ -13,34 +16,45 @@ constexpr float reflectsAll = 0.0F;  // KHR_materials_ior: reflectance at normal
 
 }  // namespace
 
+/// The first two sets of the list, at their own place if they are 0 and 1.
 std::array<uint32_t, 2> GltfMaterials::chooseUvSets(Material& material, const std::string& part) {
-    std::set<uint32_t> used;
-    std::vector<TextureSlot*> slots;
-    for (TextureSlot* slot : materialTextures(material)) {
-        if (slot->image >= 0) {
-            slots.push_back(slot);
-            used.insert(slot->uvSet);
+    const auto slots = materialTextures(material);
+    static_assert(std::tuple_size_v<decltype(materialTextures(material))> == gltfTexturePaths.size());
+    std::vector<uint32_t> kept;
+    const auto keep = [&](uint32_t set) {
+        if (kept.size() < 2 && std::ranges::find(kept, set) == kept.end()) {
+            kept.push_back(set);
         }
-    }
+    };
     if (material.anisotropy.strength > 0.0F && material.anisotropy.texture.image < 0) {
-        used.insert(0);  // its direction is that of the first set
+        keep(0);  // its direction is that of the first set
+    }
+    for (const TextureSlot* slot : slots) {
+        if (slot->image >= 0) {
+            keep(slot->uvSet);
+        }
     }
     std::array<uint32_t, 2> sets{0, 1};
-    for (const uint32_t set : used) {  // ascending
+    for (const uint32_t set : kept) {
         if (set > 1) {
-            const auto free = std::ranges::find_if(sets, [&](uint32_t kept) { return !used.contains(kept); });
-            if (free == sets.end()) {
-                report_.warn("uv sets", part,
-                             "textures with the texture coordinates {} will use those of set {}: a material may have "
-                             "two sets",
-                             set, sets[0]);
-                continue;
-            }
-            *free = set;
+            *std::ranges::find_if(sets, [&](uint32_t s) { return std::ranges::find(kept, s) == kept.end(); }) = set;
         }
     }
-    for (TextureSlot* slot : slots) {
-        slot->uvSet = slot->uvSet == sets[1] ? 1 : 0;
+    std::string others;
+    for (size_t i = 0; i < slots.size(); ++i) {
+        const auto place = static_cast<uint32_t>(std::ranges::find(sets, slots[i]->uvSet) - sets.begin());
+        if (slots[i]->image >= 0 && place == sets.size()) {
+            const std::string_view path = gltfTexturePaths.at(i);
+            others += fmt::format("{}{} (TEXCOORD_{})", others.empty() ? "" : ", ", path.substr(path.rfind('/') + 1),
+                                  slots[i]->uvSet);
+        }
+        slots[i]->uvSet = place % sets.size();
+    }
+    if (!others.empty()) {
+        report_.warn(
+            "uv sets", part,
+            "{} will be drawn with TEXCOORD_{}: a material may have two sets, here TEXCOORD_{} and TEXCOORD_{}", others,
+            sets[0], sets[0], sets[1]);
     }
     return sets;
 }

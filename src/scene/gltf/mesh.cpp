@@ -222,7 +222,7 @@ void completeFrames(Mesh& mesh, const PrimitiveSource& source, const TextureSlot
     if (!flat && source.find("TANGENT") != nullptr) {
         repairTangents(mesh);
     } else if (tangentTexture != nullptr) {
-        report.charge(part, mesh.positions.size() * vertexBytes);  // every vertex may be split
+        report.charge(part, mesh.indices.size() * vertexBytes);  // each triangle may need its own
         makeTangents(mesh, *tangentTexture);
     } else {
         for (VertexAttributes& vertex : mesh.attributes) {

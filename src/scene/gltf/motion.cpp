@@ -77,19 +77,102 @@ void GltfMotion::readAnimation(size_t index, const tinygltf::Animation& source) 
     for (size_t i = 0; i < source.channels.size(); ++i) {
         const tinygltf::AnimationChannel& channel = source.channels[i];
         const std::string part = fmt::format("animations[{}].channels[{}]", index, i);
-        if (channel.target_node < 0) {
-            continue;  // the target is defined by an extension
-        }
-        std::optional<Channel> read;
-        report_.tolerate("the channel will be ignored", [&] { read = readChannel(source, channel, part); });
-        if (read) {
-            read->node = static_cast<uint32_t>(node(channel.target_node));
-            animation.channels.push_back(std::move(*read));
-        }
+        const auto extension = channel.target_extensions.find("KHR_animation_pointer");
+        report_.tolerate("the channel will be ignored", [&] {
+            if (extension != channel.target_extensions.end() && channel.target_path == "pointer") {
+                readPointer(animation, source, channel, extension->second.Get("pointer").Get<std::string>(), part);
+            } else if (channel.target_node >= 0) {  // else an unknown extension defines the target
+                readNodeChannel(animation, source, channel, part);
+            }
+        });
     }
-    if (!animation.channels.empty()) {
+    if (!animation.channels.empty() || !animation.properties.empty()) {
         scene_.animations.push_back(std::move(animation));
     }
+}
+
+void GltfMotion::readNodeChannel(Animation& animation, const tinygltf::Animation& source,
+                                 const tinygltf::AnimationChannel& channel, const std::string& part) {
+    if (std::optional<Channel> read = readChannel(source, channel, part)) {
+        read->node = static_cast<uint32_t>(node(channel.target_node));
+        animation.channels.push_back(std::move(*read));
+    }
+}
+
+void GltfMotion::readPointer(Animation& animation, const tinygltf::Animation& source,
+                             const tinygltf::AnimationChannel& channel, const std::string& pointer,
+                             const std::string& part) {
+    const auto target = parseGltfPointer(pointer);
+    if (!target) {
+        report_.warn("pointer", part + ".target", "'{}' will stand still: it cannot be animated", pointer);
+        return;
+    }
+    const tinygltf::Model& model = document_.model;
+    const size_t count = target->of == GltfPointer::Of::node       ? model.nodes.size()
+                         : target->of == GltfPointer::Of::mesh     ? model.meshes.size()
+                         : target->of == GltfPointer::Of::material ? document_.materialCount
+                         : target->of == GltfPointer::Of::camera   ? model.cameras.size()
+                                                                   : model.lights.size();
+    if (target->index >= count) {
+        report_.fail(part + ".target", "its pointer names {}[{}], but there are {}", arrayOf(target->of), target->index,
+                     count);
+    }
+    if (target->nodePath.empty()) {
+        readProperty(animation, *target, source, channel, part);
+        return;
+    }
+    tinygltf::AnimationChannel moved = channel;
+    moved.target_path = target->nodePath;
+    moved.target_node = static_cast<int>(target->index);
+    if (target->of == GltfPointer::Of::node) {
+        readNodeChannel(animation, source, moved, part);
+        return;
+    }
+    const auto [first, last] = nodesOfMeshes().equal_range(static_cast<int>(target->index));
+    for (auto node = first; node != last; ++node) {
+        report_.charge(part, sizeof(Channel));
+        moved.target_node = node->second;
+        readNodeChannel(animation, source, moved, part);
+    }
+}
+
+/// The nodes that take the morph weights of their mesh.
+const std::multimap<int, int>& GltfMotion::nodesOfMeshes() {
+    if (!nodesOfMeshes_) {
+        nodesOfMeshes_.emplace();
+        for (size_t i = 0; i < document_.model.nodes.size(); ++i) {
+            const tinygltf::Node& node = document_.model.nodes[i];
+            if (node.mesh >= 0 && node.weights.empty()) {
+                nodesOfMeshes_->emplace(node.mesh, static_cast<int>(i));
+            }
+        }
+    }
+    return *nodesOfMeshes_;
+}
+
+/// The targets of what is no node are found later.
+void GltfMotion::readProperty(Animation& animation, const GltfPointer& target, const tinygltf::Animation& source,
+                              const tinygltf::AnimationChannel& channel, const std::string& part) {
+    std::optional<Channel> keys = readGltfChannel(document_, {source, channel, part, 0, target.components}, report_);
+    if (!keys) {
+        return;
+    }
+    PropertyChannel read{
+        .property = target.property, .texture = target.texture, .targets = {}, .keys = std::move(*keys)};
+    if (target.property == Property::orthographicHeight) {
+        std::ranges::for_each(read.keys.values, [](vec4& value) { value *= 2.0F; });  // glTF has half of it
+    }
+    if (target.of == GltfPointer::Of::node) {
+        if (read.keys.interpolation == Interpolation::cubicSpline) {
+            report_.fail(part + ".sampler", "has splines, but a node is visible or not");
+        }
+        read.keys.interpolation = Interpolation::step;
+        read.targets.push_back(static_cast<uint32_t>(node(static_cast<int>(target.index))));
+        appearing_.insert(static_cast<int>(target.index));
+    } else {
+        open_.push_back({scene_.animations.size(), animation.properties.size(), target.of, target.index});
+    }
+    animation.properties.push_back(std::move(read));
 }
 
 std::optional<Channel> GltfMotion::readChannel(const tinygltf::Animation& animation,

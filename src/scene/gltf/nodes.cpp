@@ -93,8 +93,9 @@ public:
                GltfReport& report)
         : document_(document), meshes_(meshes), motion_(motion), scene_(scene), report_(report) {}
 
-    /// Returns the node's own object-to-world matrix. Of a node that is not visible, only cameras are placed.
-    glm::dmat4 place(int index, const glm::dmat4& parentToWorld, bool visible) {
+    /// Returns the node's own object-to-world matrix. Of a node that is not visible, only cameras are placed. appears:
+    /// it or one above it is visible at some times alone.
+    glm::dmat4 place(int index, const glm::dmat4& parentToWorld, bool visible, bool appears) {
         const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(index)];
         const std::string part = fmt::format("nodes[{}]", index);
         const glm::dmat4 exact = parentToWorld * localTransform(readGltfNode(node));
@@ -102,6 +103,7 @@ public:
         if (!isFinite(toWorld)) {
             report_.fail(part, "its transform to the world is not finite");
         }
+        appears_ = appears;
         if (node.mesh >= 0 && visible) {
             addCopies(index, exact, part);
         }
@@ -117,7 +119,14 @@ public:
     }
 
     /// Puts the origin of the world near the instances, if they are far from that of the file.
-    void finish() {
+    GltfPlacement finish() {
+        placement_.open = motion_.open();
+        moveToOrigin();
+        return std::move(placement_);
+    }
+
+private:
+    void moveToOrigin() {
         scene_.origin = nearbyOrigin(scene_);
         if (scene_.origin == glm::dvec3(0.0)) {
             return;
@@ -134,7 +143,6 @@ public:
         }
     }
 
-private:
     void addCopies(int index, const glm::dmat4& nodeToWorld, const std::string& part) {
         const tinygltf::Node& node = document_.model.nodes[static_cast<size_t>(index)];
         for (const glm::dmat4& toNode : readGltfCopies(document_, node, part, report_)) {
@@ -178,11 +186,26 @@ private:
             report_.tolerate("the mesh will not be deformed",
                              [&] { instance.skin = motion_.skin(node.skin, instance.mesh, part); });
         }
+        if (instance.skin >= 0 && appears_) {
+            instance.skin = shownSkin(instance.skin, motion_.node(index), part);
+        }
         report_.charge(part,
                        sizeof(Instance) + node.name.size() + (animated ? posedVertexBytes * mesh.positions.size() : 0));
         instance.node = motion_.node(index);
         instance.weights = animated ? weights : std::vector<float>{};
         scene_.instances.push_back(std::move(instance));
+    }
+
+    /// A copy of the skin that the node hides.
+    int32_t shownSkin(int32_t skin, int32_t node, const std::string& part) {
+        const auto [found, isNew] = shownSkins_.try_emplace({skin, node}, static_cast<int32_t>(scene_.skins.size()));
+        if (isNew) {
+            Skin shown = scene_.skins[static_cast<size_t>(skin)];
+            report_.charge(part, shown.joints.size() * (sizeof(uint32_t) + 2 * sizeof(mat4)));
+            shown.shownBy = node;
+            scene_.skins.push_back(std::move(shown));
+        }
+        return found->second;
     }
 
     /// The mesh with weights that never change: a mesh of its own unless they are 0.
@@ -204,12 +227,14 @@ private:
         scene_.cameras.push_back(placeCamera(source, mat4(toWorld), fmt::format("cameras[{}]", camera), report_));
         scene_.cameras.back().node = motion_.node(node);
         exactCameras_.push_back(toWorld);
+        placement_.cameras.emplace(camera, scene_.cameras.back().node);
     }
 
     void addLight(int light, int node, const glm::dmat4& toWorld) {
         const std::string part = fmt::format("extensions.KHR_lights_punctual.lights[{}]", light);
         Lamp lamp = placeLamp(document_.model.lights[static_cast<size_t>(light)], mat4(toWorld), part, report_);
         lamp.node = motion_.node(node);
+        placement_.lights.emplace(light, lamp.node);
         if (lamp.type == Lamp::Type::directional && !scene_.sun) {
             scene_.sun = Sun{.direction = lamp.direction, .irradiance = lamp.intensity, .node = lamp.node};
         } else {
@@ -223,7 +248,10 @@ private:
     const GltfMotion& motion_;
     Scene& scene_;
     GltfReport& report_;
+    bool appears_ = false;  ///< the node that is being placed
+    GltfPlacement placement_;
     std::map<std::pair<uint32_t, std::vector<float>>, uint32_t> shaped_;  ///< by mesh and weights
+    std::map<std::pair<int32_t, int32_t>, int32_t> shownSkins_;           ///< by skin and node
     /// To the coordinates of the file, of the scene's.
     std::vector<glm::dmat4> exactInstances_;
     std::vector<glm::dmat4> exactCameras_;
@@ -232,33 +260,35 @@ private:
 
 }  // namespace
 
-void placeGltfNodes(const GltfDocument& document, const std::vector<int>& roots, GltfMeshes& meshes, Scene& scene,
-                    GltfReport& report) {
+GltfPlacement placeGltfNodes(const GltfDocument& document, const std::vector<int>& roots, GltfMeshes& meshes,
+                             Scene& scene, GltfReport& report) {
     struct Open {
         int node;
         glm::dmat4 parentToWorld;
         bool visible;  ///< the parent
+        bool appears;  ///< the same
     };
     const GltfMotion motion(document, scene, report);
     NodePlacer placer(document, meshes, motion, scene, report);
     std::vector<Open> open;  // an explicit stack: a long chain of nodes would overflow the call stack
-    const auto push = [&](const std::vector<int>& nodes, const glm::dmat4& parentToWorld, bool visible) {
+    const auto push = [&](const std::vector<int>& nodes, const glm::dmat4& parentToWorld, bool visible, bool appears) {
         for (size_t i = nodes.size(); i-- > 0;) {  // in reverse, so that the first is popped first
-            open.push_back({nodes[i], parentToWorld, visible});
+            open.push_back({nodes[i], parentToWorld, visible, appears});
         }
     };
-    push(roots, glm::dmat4(1.0), true);
+    push(roots, glm::dmat4(1.0), true, false);
     while (!open.empty()) {
         const Open next = open.back();
         open.pop_back();
         report.tolerate("the node and those below it will not be drawn", [&] {
             const tinygltf::Node& node = document.model.nodes[static_cast<size_t>(next.node)];
-            const bool visible = next.visible && isVisible(node);
-            const glm::dmat4 toWorld = placer.place(next.node, next.parentToWorld, visible);
-            push(node.children, toWorld, visible);
+            const bool appears = motion.appears(next.node);
+            const bool visible = next.visible && (isVisible(node) || appears);
+            const glm::dmat4 toWorld = placer.place(next.node, next.parentToWorld, visible, next.appears || appears);
+            push(node.children, toWorld, visible, next.appears || appears);
         });
     }
-    placer.finish();
+    return placer.finish();
 }
 
 }  // namespace reflet

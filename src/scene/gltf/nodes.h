@@ -2,13 +2,14 @@
 #pragma once
 
 #include "scene/gltf/mesh.h"
+#include "scene/gltf/properties.h"
 
 #include <vector>
 
 namespace reflet {
 
 /// Traverses the trees below `roots`, parents first and children in order. Throws Error.
-void placeGltfNodes(const GltfDocument& document, const std::vector<int>& roots, GltfMeshes& meshes, Scene& scene,
-                    GltfReport& report);
+GltfPlacement placeGltfNodes(const GltfDocument& document, const std::vector<int>& roots, GltfMeshes& meshes,
+                             Scene& scene, GltfReport& report);
 
 }  // namespace reflet

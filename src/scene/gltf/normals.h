@@ -24,10 +24,8 @@ size_t repairNormals(Mesh& mesh);
 /// Normalizes the tangents, with w = ±1. Those without a direction become any perpendicular to the normal.
 void repairTangents(Mesh& mesh);
 
-/// Computes tangents for a texture of directions, such as a normal map, by glTF 2.0's convention (w · cross(n, t) is up
-/// in the image): per vertex, the angle-weighted average over its triangles. Vertices with equal position, normal and
-/// uv are averaged together; vertices where triangles of both handednesses meet are split. After: Morten S. Mikkelsen,
-/// "Simulation of Wrinkled Surfaces Revisited", 2008. Needs unit normals.
+/// Computes tangents for a texture of directions, such as a normal map, by MikkTSpace (scene/tangent_space.h), as
+/// glTF 2.0 asks for. Vertices that need several are split. Needs unit normals.
 void makeTangents(Mesh& mesh, const TextureSlot& texture);
 
 }  // namespace reflet

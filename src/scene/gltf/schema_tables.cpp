@@ -178,7 +178,14 @@ constexpr std::array animationSampler{
     Field{.name = "output", .type = Type::index, .required = true, .refersTo = "accessors"},
     Field{.name = "interpolation", .type = Type::text, .words = interpolations},
 };
+constexpr std::array animationPointer{
+    Field{.name = "pointer", .type = Type::text, .required = true},
+};
+constexpr std::array targetExtensions{
+    Field{.name = "KHR_animation_pointer", .type = Type::object, .fields = animationPointer, .without = noChannel},
+};
 constexpr std::array channelTarget{
+    Field{.name = "extensions", .type = Type::object, .fields = targetExtensions, .without = noChannel},
     Field{.name = "node", .type = Type::index, .refersTo = "nodes", .without = noChannel},
     Field{.name = "path", .type = Type::text, .required = true},
 };

@@ -125,6 +125,22 @@ void restoreIndices(tinygltf::Model& model, const std::vector<int>& indices, con
     }
 }
 
+/// Channels with a pointer have no node, but tinygltf leaves out channels without one.
+void nameNodesOfPointers(json& document) {
+    const auto animations = document.find("animations");
+    if (animations == document.end()) {
+        return;
+    }
+    for (json& animation : *animations) {
+        for (json& channel : animation["channels"]) {
+            json& target = channel["target"];
+            if (hasGltfPointer(target) && !target.contains("node")) {
+                target["node"] = 0;
+            }
+        }
+    }
+}
+
 /// Of each buffer view its extensions alone, which tinygltf need not read; null: it has none.
 json takeViewExtensions(json& document) {
     json result = json::array();
@@ -158,7 +174,9 @@ GltfStructure takeGltfStructure(json& document, int scene, const GltfReport& rep
     const std::vector<bool> materials = usedGltfMaterials(document);
     const std::vector<bool> animations = usedGltfAnimations(document, scene);
     const std::vector<int> indices = removeIndices(document);
+    nameNodesOfPointers(document);
     GltfStructure result;
+    result.materialCount = materials.size();
     takeUsed(document, "materials", &tinygltf::Model::materials, materials, result.materials, report);
     takeUsed(document, "animations", &tinygltf::Model::animations, animations, result.animations, report);
     tinygltf::Model arrays;

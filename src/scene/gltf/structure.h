@@ -14,6 +14,7 @@ namespace reflet {
 struct GltfStructure {
     tinygltf::Model model;                             ///< without materials and animations
     std::map<int, tinygltf::Material> materials;       ///< those that a mesh of the document uses, by their indices
+    size_t materialCount = 0;                          ///< of the document
     std::map<size_t, tinygltf::Animation> animations;  ///< those that move something in the scene, by their indices
 };
 

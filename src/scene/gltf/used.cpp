@@ -121,6 +121,11 @@ std::vector<bool> usedGltfMaterials(const json& document) {
     return used;
 }
 
+bool hasGltfPointer(const json& target) {
+    const auto extensions = target.find("extensions");
+    return extensions != target.end() && extensions->contains("KHR_animation_pointer");
+}
+
 std::vector<bool> usedGltfAnimations(const json& document, int scene) {
     const std::vector<bool> nodes = usedNodes(document, scene);
     std::vector<bool> used;
@@ -128,7 +133,8 @@ std::vector<bool> usedGltfAnimations(const json& document, int scene) {
         used.push_back(std::ranges::any_of(arrayIn(animation, "channels"), [&](const json& channel) {
             const auto target = channel.find("target");
             const size_t node = target != channel.end() ? indexIn(*target, "node", nodes.size()) : nodes.size();
-            return node < nodes.size() && nodes[node];
+            const bool pointer = target != channel.end() && hasGltfPointer(*target);
+            return pointer || (node < nodes.size() && nodes[node]);
         }));
     }
     return used;
