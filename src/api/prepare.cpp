@@ -304,6 +304,7 @@ RefletResult refletPrepare(RefletView view, RefletSettings settings, const Refle
     return onView(view, [&] {
         RefletPrepareInfo given = adopted(info, "RefletPrepareInfo", offsetof(RefletPrepareInfo, changesSize));
         checkHandle(settings, "settings");
+        checkDevice(view->owner);
         if (remaining == nullptr) {
             failArgument("remaining: is NULL");
         }

@@ -109,6 +109,13 @@ void note(RefletView_T& view, const RefletFrameInfo& info, const RefletGBuffer& 
 
 }  // namespace
 
+void checkDevice(const RefletContext_T& context) {
+    if (context.gpu->isLost()) {
+        failWith(REFLET_ERROR_VULKAN,
+                 "the device was lost: destroy the views, the context and the device, and make all of them anew");
+    }
+}
+
 Settings settingsOfFrame(const RefletView_T& view, const Settings& settings, const lighting::Change& change) {
     Settings ofFrame = settings;
     const auto height = static_cast<float>(view.renderSize.y);
@@ -142,6 +149,7 @@ RefletResult inFrame(RefletView view, RefletSettings settings,
                      const std::function<void(Frame&, const Settings&)>& body) {
     return onView(view, [&] {
         checkHandle(settings, "settings");
+        checkDevice(view->owner);
         if (!view->frame) {
             failArgument("view: no frame has begun; call refletBeginFrame first");
         }
@@ -171,6 +179,7 @@ RefletResult refletCreateView(RefletContext context, const RefletViewInfo* info,
         if (view == nullptr) {
             failArgument("view: is NULL");
         }
+        checkDevice(*context);
         const RefletViewInfo given = adopted(info, "RefletViewInfo");
         checkSize(given.width, given.height);
         if (given.framesInFlight < 1 || given.framesInFlight > REFLET_MAX_FRAMES_IN_FLIGHT) {
@@ -202,7 +211,7 @@ void refletDestroyView(RefletView view) {
         return;
     }
     RefletContext_T& context = view->owner;
-    view->recorder.finish();
+    view->recorder.abandon();
     delete view;
     bool last = false;
     {
@@ -287,6 +296,7 @@ void refletJitter(uint32_t frameIndex, float jitter[2]) {
 
 RefletResult refletBeginFrame(RefletView view, const RefletFrameInfo* info) {
     return onView(view, [&] {
+        checkDevice(view->owner);
         const RefletFrameInfo given = adopted(info, "RefletFrameInfo", offsetof(RefletFrameInfo, renderSize));
         if (view->frame) {
             failArgument("view: a frame has begun already; call refletEndFrame first");

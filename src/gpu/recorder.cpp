@@ -5,6 +5,7 @@
 #include "gpu/context.h"
 
 #include <algorithm>
+#include <exception>
 
 namespace reflet::gpu {
 
@@ -35,10 +36,8 @@ Recorder::Recorder(Context& context, uint32_t framesInFlight, bool timesPasses)
 }
 
 Recorder::~Recorder() {
+    abandon();
     for (Slot& slot : slots_) {
-        if (slot.serial != 0) {
-            context().finishWork(slot.serial);
-        }
         timers_.destroy(slot.timed);
     }
 }
@@ -97,9 +96,27 @@ void Recorder::end() {
     }
 }
 
+// Of a lost device all frames are finished, though none can be read.
 void Recorder::finish() {
+    std::exception_ptr failure;
     for (uint64_t i = 1; i <= slots_.size(); ++i) {  // from the oldest
-        finish(slots_[(number_ + i) % slots_.size()]);
+        try {
+            finish(slots_[(number_ + i) % slots_.size()]);
+        } catch (const Error&) {
+            failure = std::current_exception();
+        }
+    }
+    if (failure) {
+        std::rethrow_exception(failure);
+    }
+}
+
+void Recorder::abandon() noexcept {
+    for (Slot& slot : slots_) {
+        if (slot.serial != 0) {
+            context().finishWork(slot.serial);
+            slot.serial = 0;
+        }
     }
 }
 

@@ -60,6 +60,8 @@ public:
     /// The device has finished all frames begun so far: frees what only they used; times and read-backs of the last one
     /// are available.
     void finish();
+    /// The same, but nobody is going to ask for them. Also for a device that is lost.
+    void abandon() noexcept;
 
     /// Until end(), instead of begin(): lists are planned and not recorded. Images, buffers and memory are made as in a
     /// frame; the pipelines that the passes need and the context does not have yet are added to `missing`.
