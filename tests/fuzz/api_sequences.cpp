@@ -42,7 +42,7 @@ void keepCurrent(int /*signal*/) {
 
 // A seed with some bytes changed, or nothing but random bytes.
 std::string sequence(const std::vector<fuzz::Seed>& seeds, std::mt19937& random) {
-    constexpr size_t longest = 160;
+    constexpr size_t longest = 100;
     std::string bytes(random() % longest, '\0');
     if (random() % 4 == 0) {
         bytes = seeds[random() % seeds.size()].bytes.substr(0, longest);

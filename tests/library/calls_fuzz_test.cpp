@@ -15,7 +15,7 @@ void call(const std::string& bytes) {
 }
 
 TEST(FuzzTargets, OfTheLibrarysCallsSurvivesItsSeedsAndDamagedOnes) {
-    constexpr int damagedOfEach = 8;
+    constexpr int damagedOfEach = 12;
     std::mt19937 random(7);
     for (const fuzz::Seed& seed : fuzz::apiSeeds()) {
         ASSERT_EQ(seed.target, "api");
@@ -32,7 +32,7 @@ TEST(FuzzTargets, OfTheLibrarysCallsSurvivesItsSeedsAndDamagedOnes) {
     const fuzz::ApiCounts& counts = fuzz::apiCounts();
     for (size_t i = 0; i < fuzz::apiCalls; ++i) {
         const std::string name = fuzz::apiCallName(i);
-        EXPECT_GE(counts.accepted.at(i), 3U) << name;
+        EXPECT_GE(counts.accepted.at(i), 1U) << name;
         EXPECT_GE(counts.refused.at(i), name.starts_with("refletDestroy") ? 0U : 1U) << name;
         RecordProperty(name, std::to_string(counts.accepted.at(i)) + " " + std::to_string(counts.refused.at(i)));
     }
