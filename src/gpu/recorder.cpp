@@ -11,9 +11,11 @@ namespace reflet::gpu {
 
 namespace {
 
-// Frames for which a plan stays that is not used; the latter for frames that change their size.
+// Frames for which a plan stays that is not used. Of frames that change their size, which come back to what they had
+// much later, as many stay as a host makes that changes all it can; one takes 10 KB, and images without memory.
 constexpr uint64_t planFrames = 8;
 constexpr uint64_t sizedPlanFrames = 32;
+constexpr size_t mostSizedPlans = 2048;
 // Frames in a row that need less than half of the memory before it is given back.
 constexpr uint32_t mostRoomyFrames = 16;
 
@@ -273,17 +275,36 @@ void Recorder::noteAfter(const CachedPlan& cached) {
     }
 }
 
+// Those that have not been used for longest.
+void Recorder::dropPlans() {
+    if (sizes().rescale == nullptr) {
+        std::erase_if(plans_, [&](const auto& cached) { return cached.second->lastUse + planFrames < number_; });
+    } else if (plans_.size() > mostSizedPlans) {
+        std::vector<uint64_t> uses;
+        for (const auto& [hash, cached] : plans_) {
+            uses.push_back(cached->lastUse);
+        }
+        const auto limit = uses.begin() + static_cast<std::ptrdiff_t>(uses.size() - mostSizedPlans * 3 / 4);
+        std::ranges::nth_element(uses, limit);
+        std::erase_if(plans_, [&, oldest = *limit](const auto& cached) {
+            return cached.second->lastUse < oldest && cached.second->lastUse + sizedPlanFrames < number_;
+        });
+    }
+}
+
 // Plans that have not been used for a while, and memory that is scattered or much too large. Where one list makes a
 // frame, its memory is one block of the right size from the third frame on.
 void Recorder::dropUnused() {
-    const uint64_t frames = sizes().rescale != nullptr ? sizedPlanFrames : planFrames;
-    std::erase_if(plans_, [&](const auto& cached) { return cached->lastUse + frames < number_; });
+    dropPlans();
     if (listsOfFrame_ != 1 || missing_ != nullptr) {
         roomyFrames_ = 0;
         return;
     }
     VkDeviceSize used = 0;
-    for (const auto& cached : plans_) {
+    for (const auto& [hash, cached] : plans_) {
+        if (cached->lastUse + sizedPlanFrames < number_) {
+            continue;
+        }
         VkDeviceSize sum = 0;
         for (const VkDeviceSize end : cached->plan.ends) {
             sum += end;

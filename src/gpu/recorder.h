@@ -16,6 +16,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -157,6 +158,7 @@ private:
     void noteLayouts(const CachedPlan& cached);
     void poison(const CachedPlan& cached, uint32_t position, bool before);
     void dropUnused();
+    void dropPlans();
     UniformBlock makeUniforms();
     UniformSlice uploadUniforms(const PassRecord& pass);
 
@@ -182,7 +184,7 @@ private:
     PassGraph graph_;
     std::vector<ImageInfo> infos_;
     std::vector<Listed> resources_;
-    std::vector<std::unique_ptr<CachedPlan>> plans_;
+    std::unordered_multimap<uint64_t, std::unique_ptr<CachedPlan>> plans_;  ///< by hash of graph and infos
     // Scratch, so that a steady frame takes no memory.
     std::vector<VkImageMemoryBarrier2> imageBarriers_;
     std::vector<uint32_t> dynamicOffsets_;
