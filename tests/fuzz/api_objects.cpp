@@ -88,7 +88,7 @@ void ApiMachine::createSettings(SettingsSlot& slot) {
     if (slot.alive) {
         return;
     }
-    const char* const preset = presets[bytes_.chance(20) ? bytes_.below(presets.size()) : bytes_.below(3)];
+    const char* const preset = presets[bytes_.chance(64) ? bytes_.below(presets.size()) : bytes_.below(3)];
     slot.alive = note(ApiCall::createSettings, refletCreateSettings(preset, &slot.settings)) == REFLET_SUCCESS;
     if (slot.alive && !bytes_.chance(40)) {  // effects that the presets leave off
         (void)refletSetSetting(slot.settings, "ao.method", "horizon");
@@ -143,7 +143,7 @@ void ApiMachine::askSettings(const SettingsSlot& slot) {
     RefletSettings handle = settingsOf(slot);
     RefletSettingInfo info{};
     spoilOut(info);
-    const uint32_t index = bytes_.chance(56) ? bytes_.word() : bytes_.byte() % refletSettingCount();
+    const uint32_t index = bytes_.chance(100) ? bytes_.word() : bytes_.byte() % refletSettingCount();
     const bool known = note(ApiCall::settingInfo, refletSettingInfo(index, orNull(&info))) == REFLET_SUCCESS;
     const std::string name = known && info.name != nullptr ? info.name : bytes_.text(20);
     double number = 0.0;

@@ -15,7 +15,7 @@ void call(const std::string& bytes) {
 }
 
 TEST(FuzzTargets, OfTheLibrarysCallsSurvivesItsSeedsAndDamagedOnes) {
-    constexpr int damagedOfEach = 12;
+    constexpr int damagedOfEach = 16;
     std::mt19937 random(7);
     for (const fuzz::Seed& seed : fuzz::apiSeeds()) {
         ASSERT_EQ(seed.target, "api");
