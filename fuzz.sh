@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Fuzzes every reader of input files in turn, MINUTES in all: ./fuzz.sh 150. Needs clang (with libFuzzer) and the packages
+# Fuzzes every reader of input files, and the C API, in turn, MINUTES in all: ./fuzz.sh 150. Needs clang (with libFuzzer) and the packages
 # of setup.sh. A target's name as the second argument runs that one alone; `./fuzz.sh smoke` gives each 20 s. The folder
 # build-fuzz/corpus keeps the smallest inputs that reach all code reached so far, so that the next run goes on from
 # there; build-fuzz/findings has logs, and inputs that crash, hang or take more than 2 GiB. Repeat a finding with
@@ -7,7 +7,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 minutes=${1:?usage: ./fuzz.sh MINUTES [TARGET], or ./fuzz.sh smoke [TARGET]}
-targets=(gltf draco meshopt fingerprint png jpeg webp ktx2 hdr exr view_file camera_path settings sequence_record saved_state)
+targets=(gltf draco meshopt fingerprint png jpeg webp ktx2 hdr exr view_file camera_path settings sequence_record saved_state api)
 if [ $# -gt 1 ]; then
     targets=("$2")
 fi
@@ -55,6 +55,7 @@ for target in "${targets[@]}"; do
     log="build-fuzz/findings/$target.log"
     longest=65536
     [ "$target" != fingerprint ] || longest=256 # each line of it is a file to look for
+    [ "$target" != api ] || longest=300 # a frame takes some 20 bytes, and milliseconds
     if "build-fuzz/bin/fuzz_$target" -max_total_time="$seconds" "${limits[@]}" -max_len="$longest" -print_final_stats=1 \
         -artifact_prefix="build-fuzz/findings/$target-" "build-fuzz/corpus/$target" "build-fuzz/seeds/$target" \
         >"$log" 2>&1; then

@@ -58,7 +58,8 @@ T adopted(const T* given, const char* name, size_t least = sizeof(T)) {
         failArgument("{}: is NULL", name);
     }
     T result{};
-    if (given->structSize < least) {
+    // No version of a struct ends within what it is aligned to: half a pointer would be adopted.
+    if (given->structSize < least || given->structSize % alignof(T) != 0) {
         failArgument("{}.structSize: is {}; set it to sizeof the struct, here {}", name, given->structSize, sizeof(T));
     }
     if (given->structSize > sizeof(T)) {

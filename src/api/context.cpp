@@ -226,41 +226,42 @@ RefletResult refletCreateContext(const RefletContextInfo* info, RefletContext* c
         }
         const RefletContextInfo given = adopted(info, "RefletContextInfo", offsetof(RefletContextInfo, queueFamilies));
         requireVersion(given.version);
-        auto made = std::make_unique<RefletContext_T>();
+        auto made = std::make_shared<RefletContext_T>();
         made->gpu = std::make_unique<gpu::Context>(openDevice(given));
         made->gpu->shaders().add(effectShaders());
         made->log = given.log;
         made->logUser = given.logUser;
-        Live<RefletContext_T>::add(made.get());
-        *context = made.release();
+        Live<RefletContext_T>::add(made);
+        *context = made.get();
     });
     return logged(info, result);
 }
 
 void refletDestroyContext(RefletContext context) {
-    if (!Live<RefletContext_T>::remove(context)) {  // NULL, or destroyed before
+    const std::shared_ptr<RefletContext_T> taken = Live<RefletContext_T>::take(context);
+    if (!taken) {  // NULL, or destroyed before
         return;
     }
     uint32_t views = 0;
     {
-        const std::scoped_lock lock(context->mutex);
-        views = context->views;
-        context->destroyed = true;
+        const std::scoped_lock lock(taken->mutex);
+        views = taken->views;
+        taken->destroyed = true;
     }
     if (views == 0) {
-        delete context;
+        waitForCalls(taken);
         return;
     }
     const RefletResult result =
         guarded([&] { failArgument("context: has {} views, which are to be destroyed before it", views); });
-    if (context->log != nullptr) {
-        context->log(context->logUser, result, lastError().c_str());
+    if (taken->log != nullptr) {
+        taken->log(taken->logUser, result, lastError().c_str());
     }
 }
 
 RefletResult refletContextMemory(RefletContext context, uint64_t* bytes) {
     return guarded([&] {
-        checkHandle(context, "context");
+        const std::shared_ptr<RefletContext_T> object = held(context, "context");
         if (bytes == nullptr) {
             failArgument("bytes: is NULL");
         }
@@ -270,7 +271,7 @@ RefletResult refletContextMemory(RefletContext context, uint64_t* bytes) {
 
 RefletResult refletPipelineCacheData(RefletContext context, size_t* size, void* data) {
     return guarded([&] {
-        checkHandle(context, "context");
+        const std::shared_ptr<RefletContext_T> object = held(context, "context");
         if (size == nullptr) {
             failArgument("size: is NULL");
         }
@@ -296,24 +297,22 @@ RefletResult refletCreateSettings(const char* preset, RefletSettings* settings) 
         if (settings == nullptr) {
             failArgument("settings: is NULL");
         }
-        auto made = std::make_unique<RefletSettings_T>();
+        auto made = std::make_shared<RefletSettings_T>();
         if (preset != nullptr && *preset != '\0') {
             applyPreset(made->values, preset);
         }
-        Live<RefletSettings_T>::add(made.get());
-        *settings = made.release();
+        Live<RefletSettings_T>::add(made);
+        *settings = made.get();
     });
 }
 
 void refletDestroySettings(RefletSettings settings) {
-    if (Live<RefletSettings_T>::remove(settings)) {
-        delete settings;
-    }
+    (void)Live<RefletSettings_T>::take(settings);  // goes with the last call that has it
 }
 
 RefletResult refletApplyPreset(RefletSettings settings, const char* preset) {
     return guarded([&] {
-        checkHandle(settings, "settings");
+        const std::shared_ptr<RefletSettings_T> object = held(settings, "settings");
         if (preset == nullptr) {
             failArgument("preset: is NULL");
         }
@@ -323,7 +322,7 @@ RefletResult refletApplyPreset(RefletSettings settings, const char* preset) {
 
 RefletResult refletSetSetting(RefletSettings settings, const char* name, const char* value) {
     return guarded([&] {
-        checkHandle(settings, "settings");
+        const std::shared_ptr<RefletSettings_T> object = held(settings, "settings");
         if (name == nullptr || value == nullptr) {
             failArgument("{}: is NULL", name == nullptr ? "name" : "value");
         }
@@ -334,7 +333,7 @@ RefletResult refletSetSetting(RefletSettings settings, const char* name, const c
 const char* refletGetSetting(RefletSettings settings, const char* name) {
     thread_local std::string text;
     const RefletResult result = guarded([&] {
-        checkHandle(settings, "settings");
+        const std::shared_ptr<RefletSettings_T> object = held(settings, "settings");
         if (name == nullptr) {
             failArgument("name: is NULL");
         }
@@ -346,7 +345,7 @@ const char* refletGetSetting(RefletSettings settings, const char* name) {
 
 RefletResult refletSetSettingNumber(RefletSettings settings, const char* name, double value) {
     return guarded([&] {
-        checkHandle(settings, "settings");
+        const std::shared_ptr<RefletSettings_T> object = held(settings, "settings");
         if (name == nullptr) {
             failArgument("name: is NULL");
         }
@@ -356,7 +355,7 @@ RefletResult refletSetSettingNumber(RefletSettings settings, const char* name, d
 
 RefletResult refletGetSettingNumber(RefletSettings settings, const char* name, double* value) {
     return guarded([&] {
-        checkHandle(settings, "settings");
+        const std::shared_ptr<RefletSettings_T> object = held(settings, "settings");
         if (name == nullptr || value == nullptr) {
             failArgument("{}: is NULL", name == nullptr ? "name" : "value");
         }

@@ -13,6 +13,9 @@ RefletResult onView(RefletView view, const std::function<void()>& body);
 RefletResult inFrame(RefletView view, RefletSettings settings,
                      const std::function<void(Frame&, const Settings&)>& body);
 
+/// Throws Failure once the device is known to be lost.
+void checkDevice(const RefletContext_T& context);
+
 /// The size of refletTemporal's pictures.
 inline uvec2 outputSizeOf(const RefletView_T& view) {
     return view.outputSize.x > 0 ? view.outputSize : view.size;

@@ -25,8 +25,8 @@
 struct RefletContext_T {
     std::mutex mutex;  ///< of `views` and `destroyed`
     std::unique_ptr<reflet::gpu::Context> gpu;
-    uint32_t views = 0;      ///< that exist
-    bool destroyed = false;  ///< by the host, while views exist: the last of these destroys it
+    uint32_t views = 0;      ///< that exist, and hold it
+    bool destroyed = false;  ///< by the host
     void (*log)(void* user, RefletResult result, const char* text) = nullptr;
     void* logUser = nullptr;
 };
@@ -143,8 +143,10 @@ struct RefletView_T {
           recorder(*context.gpu, framesInFlight, timesPasses),
           timesPasses(timesPasses) {}
 
+    std::shared_ptr<RefletContext_T> keeps;  ///< the owner, unless this is a view of a call's own
     RefletContext_T& owner;
     std::mutex mutex;
+    bool destroyed = false;                ///< by the host
     std::shared_ptr<VkDeviceSize> memory;  ///< bytes in use
     reflet::gpu::Recorder recorder;
     bool timesPasses;                           ///< REFLET_VIEW_PASS_TIMES

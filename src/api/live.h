@@ -3,48 +3,71 @@
 
 #include "api/calls.h"
 
+#include <memory>
 #include <mutex>
-#include <unordered_set>
+#include <thread>
+#include <unordered_map>
 
 namespace reflet::api {
 
-/// The handles of one type, in this process.
+/// The handles of one type, in this process. Calls hold what they work on, so that another thread may destroy it.
 template <class T>
 class Live {
 public:
-    static void add(const T* handle) {
+    static void add(std::shared_ptr<T> object) {
         const std::scoped_lock lock(mutex());
-        all().insert(handle);
+        const T* const handle = object.get();
+        all().emplace(handle, std::move(object));
     }
-    /// Whether it was there.
-    static bool remove(const T* handle) {
+    /// Nobody else gets it any more. None if it was not there.
+    static std::shared_ptr<T> take(const T* handle) {
         const std::scoped_lock lock(mutex());
-        return all().erase(handle) != 0;
+        const auto found = all().find(handle);
+        if (found == all().end()) {
+            return nullptr;
+        }
+        std::shared_ptr<T> object = std::move(found->second);
+        all().erase(found);
+        return object;
     }
-    static bool contains(const T* handle) {
+    /// None if it was not there.
+    static std::shared_ptr<T> get(const T* handle) {
         const std::scoped_lock lock(mutex());
-        return all().contains(handle);
+        const auto found = all().find(handle);
+        return found != all().end() ? found->second : nullptr;
     }
 
 private:
     static std::mutex& mutex() {
-        static std::mutex one;
-        return one;
+        static auto* const one = new std::mutex;
+        return *one;
     }
-    static std::unordered_set<const T*>& all() {
-        static std::unordered_set<const T*> set;
-        return set;
+    // Never destroyed: at the end of the process, what a host has left may be of a device that is gone.
+    static std::unordered_map<const T*, std::shared_ptr<T>>& all() {
+        static auto* const map = new std::unordered_map<const T*, std::shared_ptr<T>>;
+        return *map;
     }
 };
 
-/// Throws Failure for NULL and for a handle that does not exist. name: of the argument.
+/// What a handle stands for, while the caller holds it. Throws Failure for NULL and for a handle that does not exist.
+/// name: of the argument.
 template <class T>
-void checkHandle(const T* handle, const char* name) {
+[[nodiscard]] std::shared_ptr<T> held(const T* handle, const char* name) {
     if (handle == nullptr) {
         failArgument("{}: is NULL", name);
     }
-    if (!Live<T>::contains(handle)) {
+    std::shared_ptr<T> object = Live<T>::get(handle);
+    if (!object) {
         failArgument("{}: was not made by this library, or has been destroyed", name);
+    }
+    return object;
+}
+
+/// Waits until calls that have it have ended. They must not wait for this thread.
+template <class T>
+void waitForCalls(const std::shared_ptr<T>& taken) {
+    while (taken.use_count() > 1) {
+        std::this_thread::yield();
     }
 }
 

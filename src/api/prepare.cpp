@@ -303,7 +303,8 @@ RefletResult refletPrepare(RefletView view, RefletSettings settings, const Refle
                            uint32_t maxPipelines, uint32_t* remaining) {
     return onView(view, [&] {
         RefletPrepareInfo given = adopted(info, "RefletPrepareInfo", offsetof(RefletPrepareInfo, changesSize));
-        checkHandle(settings, "settings");
+        const std::shared_ptr<RefletSettings_T> object = held(settings, "settings");
+        checkDevice(view->owner);
         if (remaining == nullptr) {
             failArgument("remaining: is NULL");
         }

@@ -109,6 +109,13 @@ void note(RefletView_T& view, const RefletFrameInfo& info, const RefletGBuffer& 
 
 }  // namespace
 
+void checkDevice(const RefletContext_T& context) {
+    if (context.gpu->isLost()) {
+        failWith(REFLET_ERROR_VULKAN,
+                 "the device was lost: destroy the views, the context and the device, and make all of them anew");
+    }
+}
+
 Settings settingsOfFrame(const RefletView_T& view, const Settings& settings, const lighting::Change& change) {
     Settings ofFrame = settings;
     const auto height = static_cast<float>(view.renderSize.y);
@@ -120,10 +127,18 @@ Settings settingsOfFrame(const RefletView_T& view, const Settings& settings, con
 }
 
 RefletResult onView(RefletView view, const std::function<void()>& body) {
+    void (*log)(void*, RefletResult, const char*) = nullptr;
+    void* logUser = nullptr;
+    // Nothing is held while the host is told: it may destroy the view.
     const RefletResult result = guarded([&] {
-        checkHandle(view, "view");
-        const std::scoped_lock lock(view->mutex);
-        gpu::Memory::setAccount(view->memory);
+        const std::shared_ptr<RefletView_T> object = held(view, "view");
+        log = object->owner.log;
+        logUser = object->owner.logUser;
+        const std::scoped_lock lock(object->mutex);
+        if (object->destroyed) {  // while this call waited
+            failArgument("view: has been destroyed");
+        }
+        gpu::Memory::setAccount(object->memory);
         try {
             body();
         } catch (...) {
@@ -132,8 +147,8 @@ RefletResult onView(RefletView view, const std::function<void()>& body) {
         }
         gpu::Memory::setAccount(nullptr);
     });
-    if (result != REFLET_SUCCESS && Live<RefletView_T>::contains(view) && view->owner.log != nullptr) {
-        view->owner.log(view->owner.logUser, result, lastError().c_str());
+    if (result != REFLET_SUCCESS && log != nullptr) {
+        log(logUser, result, lastError().c_str());
     }
     return result;
 }
@@ -141,13 +156,14 @@ RefletResult onView(RefletView view, const std::function<void()>& body) {
 RefletResult inFrame(RefletView view, RefletSettings settings,
                      const std::function<void(Frame&, const Settings&)>& body) {
     return onView(view, [&] {
-        checkHandle(settings, "settings");
+        const std::shared_ptr<RefletSettings_T> given = held(settings, "settings");
+        checkDevice(view->owner);
         if (!view->frame) {
             failArgument("view: no frame has begun; call refletBeginFrame first");
         }
         Frame before = *view->frame;
         try {
-            body(*view->frame, settingsOfFrame(*view, settings->values, view->frame->change));
+            body(*view->frame, settingsOfFrame(*view, given->values, view->frame->change));
         } catch (...) {
             view->recorder.drop();
             before.light = view->recorder.isKept(before.light) ? before.light : gpu::Image{};
@@ -167,10 +183,11 @@ RefletResult refletCreateView(RefletContext context, const RefletViewInfo* info,
         *view = nullptr;
     }
     return guarded([&] {
-        checkHandle(context, "context");
+        const std::shared_ptr<RefletContext_T> owner = held(context, "context");
         if (view == nullptr) {
             failArgument("view: is NULL");
         }
+        checkDevice(*context);
         const RefletViewInfo given = adopted(info, "RefletViewInfo");
         checkSize(given.width, given.height);
         if (given.framesInFlight < 1 || given.framesInFlight > REFLET_MAX_FRAMES_IN_FLIGHT) {
@@ -186,32 +203,36 @@ RefletResult refletCreateView(RefletContext context, const RefletViewInfo* info,
                          REFLET_MAX_VIEW_INDEX - 1);
         }
         const std::scoped_lock lock(context->mutex);
+        if (context->destroyed) {
+            failArgument("context: has been destroyed");
+        }
         auto made =
-            std::make_unique<RefletView_T>(*context, given.framesInFlight, (given.flags & REFLET_VIEW_PASS_TIMES) != 0);
+            std::make_shared<RefletView_T>(*context, given.framesInFlight, (given.flags & REFLET_VIEW_PASS_TIMES) != 0);
         made->seed = given.viewIndex;
         made->size = made->renderSize = {given.width, given.height};
         made->store = std::make_unique<ViewStore>();
-        Live<RefletView_T>::add(made.get());
+        made->keeps = owner;
+        Live<RefletView_T>::add(made);
         ++context->views;
-        *view = made.release();
+        *view = made.get();
     });
 }
 
 void refletDestroyView(RefletView view) {
-    if (!Live<RefletView_T>::remove(view)) {  // NULL, or destroyed before
+    std::shared_ptr<RefletView_T> taken = Live<RefletView_T>::take(view);
+    if (!taken) {  // NULL, or destroyed before
         return;
     }
-    RefletContext_T& context = view->owner;
-    view->recorder.finish();
-    delete view;
-    bool last = false;
     {
-        const std::scoped_lock lock(context.mutex);
-        last = --context.views == 0 && context.destroyed;
+        const std::scoped_lock lock(taken->mutex);
+        taken->destroyed = true;
+        taken->recorder.abandon();
     }
-    if (last) {
-        delete &context;
-    }
+    waitForCalls(taken);
+    const std::shared_ptr<RefletContext_T> context = taken->keeps;
+    taken.reset();
+    const std::scoped_lock lock(context->mutex);
+    --context->views;
 }
 
 RefletResult refletResizeView(RefletView view, uint32_t width, uint32_t height) {
@@ -287,6 +308,7 @@ void refletJitter(uint32_t frameIndex, float jitter[2]) {
 
 RefletResult refletBeginFrame(RefletView view, const RefletFrameInfo* info) {
     return onView(view, [&] {
+        checkDevice(view->owner);
         const RefletFrameInfo given = adopted(info, "RefletFrameInfo", offsetof(RefletFrameInfo, renderSize));
         if (view->frame) {
             failArgument("view: a frame has begun already; call refletEndFrame first");

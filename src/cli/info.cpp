@@ -132,8 +132,41 @@ std::string nameOr(const ordered_json& named, const char* otherwise) {
     return name.empty() ? otherwise : "'" + name + "'";
 }
 
+void line(const char* what, const std::string& value) {
+    fmt::print("{:<14} {}\n", what, value);
+}
+
+// A file may have hundreds of thousands: the first of them, and how many more there are.
+template <class List, class Text>
+void printList(const char* what, const List& list, const Text& text) {
+    constexpr size_t most = 20;
+    size_t shown = 0;
+    for (const auto& entry : list) {
+        if (shown == most) {
+            line(what, fmt::format("… and {} more; --json lists all", list.size() - most));
+            break;
+        }
+        line(what, text(entry));
+        ++shown;
+    }
+}
+
+void printLists(const Scene& scene, const ordered_json& info) {
+    printList("light", info["lights"], [](const ordered_json& lamp) {
+        return fmt::format("{}, {}", lamp["type"].get<std::string>(), nameOr(lamp, "without a name"));
+    });
+    printList("camera", info["cameras"], [](const ordered_json& camera) {
+        return fmt::format("{}, {}", nameOr(camera, "without a name"), camera["type"].get<std::string>());
+    });
+    printList("animation", info["animations"], [](const ordered_json& animation) {
+        return fmt::format("{}, {:.4g} s, {} channels", nameOr(animation, "without a name"),
+                           animation["seconds"].get<double>(), animation["channels"].get<uint64_t>());
+    });
+    printList("variant", scene.variants, [](const std::string& variant) { return variant; });
+    printList("not drawn", info["not_drawn"], [](const ordered_json& warning) { return warning.get<std::string>(); });
+}
+
 void printText(const Scene& scene, const ordered_json& info) {
-    const auto line = [](const char* what, const std::string& value) { fmt::print("{:<14} {}\n", what, value); };
     line("scene", scene.name);
     const std::vector<std::string>& extensions = scene.extensions;
     line("extensions", extensions.empty() ? "none" : fmt::format("{}", fmt::join(extensions, ", ")));
@@ -162,22 +195,7 @@ void printText(const Scene& scene, const ordered_json& info) {
                          from.azimuth, from.elevation, glm::distance(camera.position, camera.target), target.x,
                          target.y, target.z, glm::degrees(camera.fovY)));
     }
-    for (const auto& lamp : info["lights"]) {
-        line("light", fmt::format("{}, {}", lamp["type"].get<std::string>(), nameOr(lamp, "without a name")));
-    }
-    for (const auto& camera : info["cameras"]) {
-        line("camera", fmt::format("{}, {}", nameOr(camera, "without a name"), camera["type"].get<std::string>()));
-    }
-    for (const auto& animation : info["animations"]) {
-        line("animation", fmt::format("{}, {:.4g} s, {} channels", nameOr(animation, "without a name"),
-                                      animation["seconds"].get<double>(), animation["channels"].get<uint64_t>()));
-    }
-    for (const std::string& variant : scene.variants) {
-        line("variant", variant);
-    }
-    for (const std::string warning : info["not_drawn"]) {
-        line("not drawn", warning);
-    }
+    printLists(scene, info);
 }
 
 Scene opened(const std::string& file, std::vector<std::string>& warnings) {

@@ -145,6 +145,10 @@ public:
     template <class F>
     void retire(F destroy) noexcept;
 
+    /// A call has told that the device is lost: nothing that is recorded can be executed any more.
+    void noteLost() { lost_ = true; }
+    [[nodiscard]] bool isLost() const { return lost_; }
+
     VkResult allocateMemory(const VkMemoryAllocateInfo& info, VkDeviceMemory* memory);
     void freeMemory(VkDeviceMemory memory);
     /// For debuggers; do nothing without VK_EXT_debug_utils.
@@ -176,6 +180,7 @@ private:
     bool anisotropic_ = false;
     bool rayQuery_ = false;
     bool cpu_ = false;
+    std::atomic<bool> lost_ = false;
     bool writesWithoutFormat_ = false;
     std::vector<uint32_t> queueFamilies_;
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;

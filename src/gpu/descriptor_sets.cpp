@@ -11,7 +11,7 @@ namespace reflet::gpu {
 namespace {
 
 constexpr uint32_t setsPerPool = 256;
-// Of one pass: histories swap every other frame, and each frame in flight has uniforms of its own.
+// Of one pass and layout: histories swap every other frame, and each frame in flight has uniforms of its own.
 constexpr size_t setsPerPass = 16;
 
 VkDescriptorPool makePool(Context& context) {
@@ -71,7 +71,7 @@ VkDescriptorSet DescriptorSets::setOf(PassRecord& pass, const std::pair<VkBuffer
         known->lastUse = frame;
         return known->set;
     }
-    CachedSet& entry = makeRoom(pass, finished);
+    CachedSet& entry = makeRoom(pass, layout, finished);
     if (entry.set == VK_NULL_HANDLE || entry.layout != layout || entry.pipelines != pass.pipelinesVersion) {
         allocate(entry, layout);
         entry.pipelines = pass.pipelinesVersion;
@@ -83,21 +83,23 @@ VkDescriptorSet DescriptorSets::setOf(PassRecord& pass, const std::pair<VkBuffer
     return entry.set;
 }
 
-// An entry that no unfinished frame uses: one without identity first, then the oldest once there are many.
-CachedSet& DescriptorSets::makeRoom(PassRecord& pass, uint64_t finished) {
-    const auto isFree = [&](const CachedSet& s) { return s.lastUse <= finished; };
-    const auto unnamed =
-        std::ranges::find_if(pass.sets, [&](const CachedSet& s) { return s.key.empty() && isFree(s); });
-    if (unnamed != pass.sets.end()) {
-        return *unnamed;
-    }
-    if (pass.sets.size() >= setsPerPass) {
-        const auto oldest = std::ranges::min_element(pass.sets, {}, &CachedSet::lastUse);
-        if (isFree(*oldest)) {
-            return *oldest;
+// An entry that no unfinished frame uses: one without identity or of pipelines that are gone first, then the oldest
+// once there are many. Of other layouts, which the pass has with other settings, nothing is taken: they come back.
+CachedSet& DescriptorSets::makeRoom(PassRecord& pass, VkDescriptorSetLayout layout, uint64_t finished) {
+    CachedSet* oldest = nullptr;
+    size_t count = 0;
+    for (CachedSet& entry : pass.sets) {
+        const bool gone = entry.pipelines != pass.pipelinesVersion;
+        if (entry.lastUse <= finished && (gone || (entry.layout == layout && entry.key.empty()))) {
+            return entry;
+        }
+        if (!gone && entry.layout == layout) {
+            ++count;
+            oldest = oldest == nullptr || entry.lastUse < oldest->lastUse ? &entry : oldest;
         }
     }
-    return pass.sets.emplace_back();
+    const bool takes = count >= setsPerPass && oldest->lastUse <= finished;
+    return takes ? *oldest : pass.sets.emplace_back();
 }
 
 void DescriptorSets::allocate(CachedSet& entry, VkDescriptorSetLayout layout) {

@@ -100,6 +100,9 @@ void PassTimers::read(const Frame& frame, std::vector<PassTime>& times) {
             times.clear();
             return;
         }
+        if (result == VK_ERROR_DEVICE_LOST) {
+            context_.noteLost();
+        }
         vkCheck(result, "reading timestamps");
     }
     const double tick = context_.limits().timestampPeriod * 1e-6;

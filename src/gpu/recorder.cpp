@@ -5,14 +5,17 @@
 #include "gpu/context.h"
 
 #include <algorithm>
+#include <exception>
 
 namespace reflet::gpu {
 
 namespace {
 
-// Frames for which a plan stays that is not used; the latter for frames that change their size.
+// Frames for which a plan stays that is not used. Of frames that change their size, which come back to what they had
+// much later, as many stay as a host makes that changes all it can; one takes 10 KB, and images without memory.
 constexpr uint64_t planFrames = 8;
 constexpr uint64_t sizedPlanFrames = 32;
+constexpr size_t mostSizedPlans = 2048;
 // Frames in a row that need less than half of the memory before it is given back.
 constexpr uint32_t mostRoomyFrames = 16;
 
@@ -35,10 +38,8 @@ Recorder::Recorder(Context& context, uint32_t framesInFlight, bool timesPasses)
 }
 
 Recorder::~Recorder() {
+    abandon();
     for (Slot& slot : slots_) {
-        if (slot.serial != 0) {
-            context().finishWork(slot.serial);
-        }
         timers_.destroy(slot.timed);
     }
 }
@@ -97,9 +98,27 @@ void Recorder::end() {
     }
 }
 
+// Of a lost device all frames are finished, though none can be read.
 void Recorder::finish() {
+    std::exception_ptr failure;
     for (uint64_t i = 1; i <= slots_.size(); ++i) {  // from the oldest
-        finish(slots_[(number_ + i) % slots_.size()]);
+        try {
+            finish(slots_[(number_ + i) % slots_.size()]);
+        } catch (const Error&) {
+            failure = std::current_exception();
+        }
+    }
+    if (failure) {
+        std::rethrow_exception(failure);
+    }
+}
+
+void Recorder::abandon() noexcept {
+    for (Slot& slot : slots_) {
+        if (slot.serial != 0) {
+            context().finishWork(slot.serial);
+            slot.serial = 0;
+        }
     }
 }
 
@@ -256,17 +275,36 @@ void Recorder::noteAfter(const CachedPlan& cached) {
     }
 }
 
+// Those that have not been used for longest.
+void Recorder::dropPlans() {
+    if (sizes().rescale == nullptr) {
+        std::erase_if(plans_, [&](const auto& cached) { return cached.second->lastUse + planFrames < number_; });
+    } else if (plans_.size() > mostSizedPlans) {
+        std::vector<uint64_t> uses;
+        for (const auto& [hash, cached] : plans_) {
+            uses.push_back(cached->lastUse);
+        }
+        const auto limit = uses.begin() + static_cast<std::ptrdiff_t>(uses.size() - mostSizedPlans * 3 / 4);
+        std::ranges::nth_element(uses, limit);
+        std::erase_if(plans_, [&, oldest = *limit](const auto& cached) {
+            return cached.second->lastUse < oldest && cached.second->lastUse + sizedPlanFrames < number_;
+        });
+    }
+}
+
 // Plans that have not been used for a while, and memory that is scattered or much too large. Where one list makes a
 // frame, its memory is one block of the right size from the third frame on.
 void Recorder::dropUnused() {
-    const uint64_t frames = sizes().rescale != nullptr ? sizedPlanFrames : planFrames;
-    std::erase_if(plans_, [&](const auto& cached) { return cached->lastUse + frames < number_; });
+    dropPlans();
     if (listsOfFrame_ != 1 || missing_ != nullptr) {
         roomyFrames_ = 0;
         return;
     }
     VkDeviceSize used = 0;
-    for (const auto& cached : plans_) {
+    for (const auto& [hash, cached] : plans_) {
+        if (cached->lastUse + sizedPlanFrames < number_) {
+            continue;
+        }
         VkDeviceSize sum = 0;
         for (const VkDeviceSize end : cached->plan.ends) {
             sum += end;

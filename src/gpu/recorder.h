@@ -16,6 +16,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -60,6 +61,8 @@ public:
     /// The device has finished all frames begun so far: frees what only they used; times and read-backs of the last one
     /// are available.
     void finish();
+    /// The same, but nobody is going to ask for them. Also for a device that is lost.
+    void abandon() noexcept;
 
     /// Until end(), instead of begin(): lists are planned and not recorded. Images, buffers and memory are made as in a
     /// frame; the pipelines that the passes need and the context does not have yet are added to `missing`.
@@ -155,6 +158,7 @@ private:
     void noteLayouts(const CachedPlan& cached);
     void poison(const CachedPlan& cached, uint32_t position, bool before);
     void dropUnused();
+    void dropPlans();
     UniformBlock makeUniforms();
     UniformSlice uploadUniforms(const PassRecord& pass);
 
@@ -180,7 +184,7 @@ private:
     PassGraph graph_;
     std::vector<ImageInfo> infos_;
     std::vector<Listed> resources_;
-    std::vector<std::unique_ptr<CachedPlan>> plans_;
+    std::unordered_multimap<uint64_t, std::unique_ptr<CachedPlan>> plans_;  ///< by hash of graph and infos
     // Scratch, so that a steady frame takes no memory.
     std::vector<VkImageMemoryBarrier2> imageBarriers_;
     std::vector<uint32_t> dynamicOffsets_;

@@ -9,6 +9,51 @@
 
 namespace reflet::gpu {
 
+namespace {
+
+class Hash {
+public:
+    void add(uint64_t value) {
+        sum_ = (sum_ ^ value) * 0x9E3779B97F4A7C15U;
+        sum_ ^= sum_ >> 29U;
+    }
+    [[nodiscard]] uint64_t sum() const { return sum_; }
+
+private:
+    uint64_t sum_ = 0;
+};
+
+// Of most of what tells graphs apart; equality compares all.
+uint64_t hashOf(const PassGraph& graph, const std::vector<ImageInfo>& infos) {
+    Hash hash;
+    hash.add(graph.passes.size());
+    for (const ResourceUse& use : graph.uses) {
+        hash.add(use.resource ^ use.access.access << 8U);
+    }
+    for (const GraphResource& resource : graph.resources) {
+        hash.add(resource.offset ^ resource.size << 20U ^ uint64_t(resource.undefined) ^
+                 uint64_t(resource.output) << 1U);
+        hash.add(resource.before.writeStages ^ resource.before.readStages << 1U);
+        hash.add(resource.before.writeAccess);
+    }
+    for (const GraphHeap& heap : graph.heaps) {
+        hash.add(heap.blocks.size() ^ heap.taken.size() << 32U);
+        for (const MemoryRange& taken : heap.taken) {
+            hash.add(taken.offset ^ taken.size << 20U);
+        }
+        for (const HeldRange& held : heap.held) {
+            hash.add(held.resource ^ uint64_t(held.use) << 32U);
+        }
+        hash.add(heap.before.access);
+    }
+    for (const ImageInfo& info : infos) {
+        hash.add(info.size.x ^ uint64_t(info.size.y) << 20U ^ uint64_t(info.format) << 40U);
+    }
+    return hash.sum();
+}
+
+}  // namespace
+
 uint32_t Recorder::listed(const Image& view) {
     ImageState& state = *view.state;
     if (state.mark.list == listNumber() && state.mark.owner == this) {
@@ -98,11 +143,12 @@ void Recorder::makeGraph() {
 }
 
 Recorder::CachedPlan& Recorder::planned() {
-    const auto known = std::ranges::find_if(
-        plans_, [&](const auto& cached) { return cached->infos == infos_ && cached->graph == graph_; });
-    if (known != plans_.end()) {
-        (*known)->lastUse = number_;
-        return **known;
+    const auto [first, last] = plans_.equal_range(hashOf(graph_, infos_));
+    for (auto known = first; known != last; ++known) {
+        if (known->second->infos == infos_ && known->second->graph == graph_) {
+            known->second->lastUse = number_;
+            return *known->second;
+        }
     }
     ++counting_.plans;
     auto made = std::make_unique<CachedPlan>();
@@ -111,7 +157,8 @@ Recorder::CachedPlan& Recorder::planned() {
     made->plan = compile(graph_);
     made->lastUse = number_;
     place(*made);
-    return *plans_.emplace_back(std::move(made));
+    const uint64_t hash = hashOf(made->graph, made->infos);  // place() has changed its blocks
+    return *plans_.emplace(hash, std::move(made))->second;
 }
 
 void Recorder::place(CachedPlan& cached) {

@@ -16,10 +16,10 @@ constexpr VkDeviceSize leastHeapAlignment = 4096;
 constexpr VkBufferUsageFlags bufferUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
                                            VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
-constexpr size_t mostNeeds = 1000;
+constexpr size_t mostNeeds = 4000;
 
-// Images in the memory of a held one.
-constexpr size_t mostSizes = 8;
+// Images in the memory of a held one: sizes that frames come back to.
+constexpr size_t mostSizes = 32;
 
 VkBuffer makeBuffer(Context& context, VkDeviceSize size, VkBufferUsageFlags usage) {
     VkBufferCreateInfo create{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
@@ -70,7 +70,7 @@ uint32_t TransientMemory::heapOf(uint32_t memoryTypes, VkDeviceSize alignment) {
 }
 
 TransientMemory::Needs TransientMemory::needsOf(const ImageInfo& info) {
-    const auto known = std::ranges::find(imageNeeds_, info, &std::pair<ImageInfo, Needs>::first);
+    const auto known = imageNeeds_.find(info);
     if (known != imageNeeds_.end()) {
         return known->second;
     }
@@ -85,7 +85,7 @@ TransientMemory::Needs TransientMemory::needsOf(const ImageInfo& info) {
     if (imageNeeds_.size() == mostNeeds) {  // of a window that has had many sizes
         imageNeeds_.clear();
     }
-    imageNeeds_.emplace_back(info, made);
+    imageNeeds_.emplace(info, made);
     return made;
 }
 

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -143,6 +144,12 @@ private:
         VkDeviceSize offset = 0;
         VkDeviceSize size = 0;
     };
+    struct InfoHash {
+        size_t operator()(const ImageInfo& info) const {
+            return (info.size.x + 16411U * size_t(info.size.y)) * 31 + static_cast<size_t>(info.format) * 131071 +
+                   info.mips * 7 + info.layers * 13;
+        }
+    };
     static HeldUse useOf(const HeldImage& image, uint64_t frame, bool otherIsListed);
     void addHeld(HeldBlock block, HeldImage& image);
     HeldImage::Sized& addSized(HeldImage& held, const ImageInfo& info);
@@ -154,7 +161,7 @@ private:
     std::vector<VkMemoryRequirements> requirements_;  ///< of each heap: its memory types and alignment
     std::vector<std::vector<Block>> blocks_;          ///< of each heap
     std::vector<HeldBlock> held_;
-    std::vector<std::pair<ImageInfo, Needs>> imageNeeds_;
+    std::unordered_map<ImageInfo, Needs, InfoHash> imageNeeds_;
     std::map<VkDeviceSize, Needs> bufferNeeds_;
     std::vector<std::pair<std::pair<ImageInfo, VkDeviceSize>, std::weak_ptr<PlacedImage>>> images_;
     std::map<std::pair<VkDeviceSize, VkDeviceSize>, std::weak_ptr<PlacedBuffer>> buffers_;

@@ -18,7 +18,7 @@ const char* advice(VkResult result) {
     }
     switch (result) {
         case VK_ERROR_DEVICE_LOST:
-            return "; the driver has reset it: open it again, and update the driver if this repeats";
+            return "; the driver has reset it: start again, and update the driver if this repeats";
         case VK_ERROR_SURFACE_LOST_KHR:
             return "; open the window again";
         case VK_ERROR_UNKNOWN:

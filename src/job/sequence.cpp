@@ -61,12 +61,14 @@ public:
         const uint32_t known = run.begin - plan.shotOf(run.begin);
         for (uint32_t i = 0; i < plan.warmUp; ++i) {
             const uint32_t before = plan.warmUp - i;
-            job_.renderer.render(views_.of(run.begin - std::min(before, known)), job_.size, seed(), job_.settings);
+            tryTo([&] {
+                job_.renderer.render(views_.of(run.begin - std::min(before, known)), job_.size, seed(), job_.settings);
+            });
             stopIfAsked();
             progress.advance();
         }
         for (uint32_t frame = run.begin; frame < run.end; ++frame) {
-            renderFrame(frame);
+            tryTo([&] { renderFrame(frame); });
             stopIfAsked();
             progress.advance();
         }
@@ -93,6 +95,18 @@ private:
         }
         job_.timings.add(job_.renderer.frame().passTimes());
         ++written_;
+    }
+
+    // A device that is lost, or a disk that is full, ends the run; what is written stays.
+    template <class F>
+    void tryTo(const F& draw) const {
+        try {
+            draw();
+        } catch (const UsageError&) {
+            throw;
+        } catch (const Error& error) {
+            fail("{}; {} frames are written: run the same command again to continue", error.what(), written_);
+        }
     }
 
     void stopIfAsked() const {

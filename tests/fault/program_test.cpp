@@ -22,6 +22,38 @@ TEST_F(Faulty, RenderSaysWhatFailedAndLeavesNothing) {
                   {"a.png", "a.exr"}));
 }
 
+// Over 5 s: six processes.
+TEST_F(Faulty, ASequenceGoesOnAfterALostDevice) {
+    const auto rendered = [&](const std::string& name, const Variables& with) {
+        return run({"render", "builtin:cubes", "--preset", "direct", "--size", "32x18", "--frames", "6", "--segment",
+                    "2", "--warmup", "1", "--quiet", "-o", name + "-####.png"},
+                   with);
+    };
+    ASSERT_EQ(rendered("whole", {}).status, 0);
+    uint32_t number = 0;
+    for (const char* fault : {"vkQueueSubmit2:11:VK_ERROR_DEVICE_LOST", "vkWaitSemaphores:14:VK_ERROR_DEVICE_LOST"}) {
+        const std::string name = "lost" + std::to_string(++number);
+        const Outcome lost = rendered(name, layerEnvironment(path("report.txt"), fault));
+        const Report report = readReport(path("report.txt"));
+        EXPECT_TRUE(report.hit && report.ended && report.complaints.empty()) << fault << report.complaints;
+        EXPECT_EQ(lost.status, 1) << fault;
+        EXPECT_NE(lost.err.find("the device was lost"), std::string::npos) << lost.err;
+        EXPECT_NE(lost.err.find("frames are written: run the same command again to continue"), std::string::npos)
+            << lost.err;
+        EXPECT_FALSE(std::filesystem::exists(path(name + "-0005.png"))) << fault << " came too late";
+        EXPECT_EQ(rendered(name, {}).status, 0);
+        size_t files = 0;
+        for (const auto& entry : std::filesystem::directory_iterator(path("x").parent_path())) {
+            files += entry.path().filename().string().starts_with(name) ? 1 : 0;
+        }
+        EXPECT_EQ(files, 7U) << "six frames and their record";
+        for (int frame = 0; frame < 6; ++frame) {
+            const std::string suffix = "-000" + std::to_string(frame) + ".png";
+            EXPECT_EQ(read(name + suffix), read("whole" + suffix)) << fault << suffix;
+        }
+    }
+}
+
 TEST_F(Faulty, BenchSaysWhatFailedAndLeavesNothing) {
     Command bench = command({"bench",          "builtin:cubes",
                              "--size",         "16x16",

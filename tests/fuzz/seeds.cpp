@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     const std::filesystem::path folder = argv[1];
-    for (const auto& seeds : {fuzz::sceneSeeds(), fuzz::stateSeeds()}) {
+    for (const auto& seeds : {fuzz::sceneSeeds(), fuzz::stateSeeds(), fuzz::apiSeeds()}) {
         for (const fuzz::Seed& seed : seeds) {
             std::filesystem::create_directories(folder / seed.target);
             writeFileAtomically(folder / seed.target / seed.name, seed.bytes, Lasting::no);

@@ -16,5 +16,7 @@ struct Seed {
 std::vector<Seed> sceneSeeds();
 /// Of the targets that read settings, records and states.
 std::vector<Seed> stateSeeds();
+/// Of the target of the C API.
+std::vector<Seed> apiSeeds();
 
 }  // namespace reflet::fuzz

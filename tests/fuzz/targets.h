@@ -25,5 +25,7 @@ Target fingerprint;
 Target settings;
 Target sequenceRecord;
 Target savedState;
+// Of the library.
+Target api;
 
 }  // namespace reflet::fuzz

@@ -124,6 +124,7 @@ TEST_F(EffectArguments, OfIndirectLight) {
     expectError(refletDiffuseGi(view_, settings_, &light_, &lobe_), "no frame has begun");
     inAFrame([&] {
         expectLightError("structSize", [](auto& l) { l.structSize = 3; });
+        expectLightError("structSize", [](auto& l) { l.structSize = sizeof l - 4; });  // half of its last pointer
         expectLightError("light.image", [](auto& l) { l.light.image = VK_NULL_HANDLE; });
         expectLightError("light.format", [](auto& l) { l.light.format = VK_FORMAT_R8G8B8A8_UINT; });
         expectEnvironmentError("structSize", [](auto& e) { e.structSize = 4; });
