@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 
 namespace reflet {
 
@@ -88,7 +89,9 @@ std::optional<size_t> indexOf(std::string_view token) {
     if (token.empty() || !digits || token.size() > mostDigits || (token.size() > 1 && token[0] == '0')) {
         return std::nullopt;
     }
-    return std::stoul(std::string(token));
+    size_t index = 0;
+    std::from_chars(token.data(), token.data() + token.size(), index);
+    return index;
 }
 
 bool findProperty(std::string_view path, GltfPointer& found) {
