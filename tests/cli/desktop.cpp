@@ -157,9 +157,10 @@ void DesktopTest::reveal(const std::string& control) const {
 // Waits until the window has drawn all that it was told: reported positions of controls are outdated during scrolling,
 // and ImGui 1.86 ignores a press and release within one redraw.
 void DesktopTest::settle() const {
-    constexpr int mostLooks = 30 * test::slowness;
-    for (int i = 0; i < mostLooks; ++i) {
-        std::this_thread::sleep_for(milliseconds(200));  // longer than events take to arrive
+    constexpr milliseconds look(200);  // longer than events take to arrive
+    const auto mostLooks = std::max<long>(30 * test::slowness, patience_ / look);
+    for (long i = 0; i < mostLooks; ++i) {
+        std::this_thread::sleep_for(look);
         if (status()["answered"].get<bool>()) {
             return;
         }

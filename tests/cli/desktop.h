@@ -44,7 +44,8 @@ protected:
     void press(const std::string& keys) const;
     void type(const std::string& text) const;
     void resize(uint32_t width, uint32_t height) const;
-    /// Waits until the window has answered all input, for six seconds at most (longer with a sanitizer).
+    /// Waits until the window has answered all input, for six seconds at most (longer with a sanitizer, or where
+    /// opening the window took long).
     void settle() const;
 
     [[nodiscard]] int viewer() const { return viewer_; }  ///< process id
