@@ -1,15 +1,12 @@
 // A host's long run: sizes, cuts, masks and lamps change, and after the first rounds nothing is made or allocated any
 // more. REFLET_LONG_RUN: how many frames (1000 take some minutes on a CPU).
 #include "library/library_fixture.h"
+#include "support/heap.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <memory>
-
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 namespace reflet::test::steady_test {
 namespace {
@@ -19,16 +16,6 @@ constexpr std::array<uvec2, 4> sizes{uvec2(HostRoom::width, HostRoom::height), u
 // After so many frames all comes again: a cut, 4 sizes, 0 to 2 lamps, with and without masks.
 constexpr uint32_t roundFrames = 24;
 constexpr uint32_t warmRounds = 3;
-
-// Bytes of the process that malloc has given away; 0 where nobody knows.
-size_t heapBytes() {
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    const auto info = mallinfo2();
-    return info.uordblks + info.hblkhd;
-#else
-    return 0;
-#endif
-}
 
 uint32_t framesToRun() {
     const char* asked = std::getenv("REFLET_LONG_RUN");  // NOLINT(concurrency-mt-unsafe): one thread

@@ -2,15 +2,12 @@
 // first rounds no object is made and nothing grows. REFLET_STUB_FRAMES: how many frames.
 #include "library/library_host.h"
 #include "stub/host.h"
+#include "support/heap.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <memory>
-
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 namespace reflet::test::stub_steady_test {
 namespace {
@@ -26,15 +23,6 @@ constexpr std::array<Size, 8> sizes{
 // Then all comes again: 8 sizes, 0 to 2 lamps, with and without masks, two settings, and a cut.
 constexpr uint32_t roundFrames = 96;
 constexpr uint32_t warmRounds = 4;
-
-size_t heapBytes() {
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    const auto info = mallinfo2();
-    return info.uordblks + info.hblkhd;
-#else
-    return 0;
-#endif
-}
 
 uint32_t framesToRun() {
     const char* asked = std::getenv("REFLET_STUB_FRAMES");  // NOLINT(concurrency-mt-unsafe): one thread
