@@ -98,6 +98,12 @@ lighting::Light lightWith(const Frame& frame, gpu::Image radiance) {
     return light;
 }
 
+// Only what has been composited is known to show reflections.
+lighting::Reflecting reflectingOf(const Frame& frame) {
+    const bool reflects = frame.specular && frame.composed;
+    return {frame, reflects ? &*frame.specular : nullptr, frame.composed};
+}
+
 // The last picture of this frame before depth of field and motion blur.
 gpu::Image pictureSoFar(const Frame& frame) {
     const gpu::Image radiance = frame.antialiased ? frame.antialiased : frame.composed;
@@ -118,8 +124,9 @@ void keepLobe(gpu::PassList& f, const std::optional<LobeLight>& lobe) {
         return;
     }
     const GBuffer& g = lobe->from.g;
-    // With these the composite brings a coarse lobe to full resolution.
-    for (const gpu::Image& image : {g.depth, g.normal, lobe->radiance, lobe->source, lobe->directional}) {
+    // With these the composite brings a coarse lobe to full resolution, and antialiasing follows reflected images.
+    for (const gpu::Image& image :
+         {g.depth, g.normal, lobe->radiance, lobe->source, lobe->directional, lobe->imageMotion}) {
         f.keep(image);
     }
 }
@@ -330,10 +337,10 @@ gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& sett
     }
     const EnvironmentLight& sky = frame.context.environment;
     const bool filtersSky = frame.showsEnvironment && sky.texels && sky.texels.size.x > 1;
-    frame.antialiased =
-        lighting::antialias(f, view.store->temporal, frame.context, settings, lightWith(frame, radiance),
-                            {size, frame.jitter, filtersSky ? &sky : nullptr, mixesSizes(view)})
-            .lit;
+    frame.antialiased = lighting::antialias(f, view.store->temporal, frame.context, settings, reflectingOf(frame),
+                                            lightWith(frame, radiance),
+                                            {size, frame.jitter, filtersSky ? &sky : nullptr, mixesSizes(view)})
+                            .lit;
     finishCall(view, frame);
     return frame.antialiased;
 }
@@ -342,9 +349,8 @@ gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& 
                               gpu::Image color) {
     gpu::PassList& f = view.recorder;
     const gpu::Image radiance = color ? pictureOf(view, settings, color) : pictureSoFar(frame);
-    const LobeLight* const specular = frame.specular && frame.composed ? &*frame.specular : nullptr;
     const lighting::Light blurred = lighting::defocus(f, view.store->lens, contextOf(view, frame), settings, lens,
-                                                      frame, lightWith(frame, radiance), specular);
+                                                      reflectingOf(frame), lightWith(frame, radiance));
     frame.sharp = radiance;
     frame.defocused = blurred.lit;
     frame.circleOfConfusion = blurred.circleOfConfusion;

@@ -2,6 +2,7 @@
 #include "lighting/picture.h"
 
 #include "effects/exposure/exposure.h"
+#include "effects/reflected_images/reflected_images.h"
 #include "effects/tonemap/tonemap.h"
 
 namespace reflet::lighting {
@@ -13,6 +14,15 @@ constexpr VkFormat lightFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 // Whether `lit` has the size of the depth, so that what it shows can be looked up there.
 bool fits(gpu::Image lit, const Surfaces& surfaces) {
     return lit && lit.size == surfaces.g.depth.size;
+}
+
+// What smooth surfaces reflect; none if nothing can be said of it.
+std::optional<Reflections> reflectionsOf(const ViewContext& in, const Reflecting& reflecting) {
+    const Surfaces& surfaces = reflecting.surfaces;
+    if (reflecting.specular == nullptr || !fits(reflecting.lit, surfaces)) {
+        return {};
+    }
+    return Reflections{surfaces.g, *reflecting.specular, reflecting.lit, in.ggxTable, in.lambertOnly};
 }
 
 // What exposure is measured of, before the lens and the shutter blur it; none if no picture fits.
@@ -76,10 +86,16 @@ Light accumulate(gpu::PassList& f, AccumulateHistory& own, const Light& light, u
 }
 
 Light antialias(gpu::PassList& f, TemporalStore& own, const ViewContext& in, const LightingSettings& settings,
-                const Light& light, const Antialiasing& to) {
+                const Reflecting& reflecting, const Light& light, const Antialiasing& to) {
+    ShownImages shown{light.followedDepth, light.followedMotion};
+    const std::optional<Reflections> reflections = reflectionsOf(in, reflecting);
+    if (reflections && settings.temporal.reflections != 0) {
+        const auto scope = f.scope("temporal");
+        shown = withReflectedImages(f, *reflections, in.view, shown);
+    }
     const TemporalImages means = temporal(f, own,
-                                          {.depth = light.followedDepth,
-                                           .motion = light.followedMotion,
+                                          {.depth = shown.depth,
+                                           .motion = shown.motion,
                                            .radiance = light.lit,
                                            .coverage = light.coverage,
                                            .view = in.view,
@@ -99,21 +115,20 @@ Light antialias(gpu::PassList& f, TemporalStore& own, const ViewContext& in, con
 }
 
 Light defocus(gpu::PassList& f, DofHistory& own, const ViewContext& in, const LightingSettings& settings,
-              const Lens& lens, const Surfaces& surfaces, const Light& light, const LobeLight* specular) {
+              const Lens& lens, const Reflecting& reflecting, const Light& light) {
     if (!blurs(lens, settings.dof)) {
         return light;
     }
     Light out = light;
     out.unfiltered = unfilteredOf(light);
+    const GBuffer& g = reflecting.surfaces.g;
     DofInputs blur{.radiance = light.lit,
-                   .depth = surfaces.g.depth,
-                   .motion = light.antialiased ? surfaces.g.motion : gpu::Image{},
+                   .depth = g.depth,
+                   .motion = light.antialiased ? g.motion : gpu::Image{},
                    .view = in.view,
                    .lens = lens,
-                   .settings = settings.dof};
-    if (specular != nullptr && fits(out.unfiltered, surfaces)) {
-        blur.reflections = {surfaces.g, *specular, out.unfiltered, in.ggxTable, in.lambertOnly};
-    }
+                   .settings = settings.dof,
+                   .reflections = reflectionsOf(in, reflecting)};
     const DofImages blurred = depthOfField(f, own.light, blur);
     out.sharp = light.lit;
     out.lit = blurred.radiance;

@@ -55,19 +55,25 @@ struct Antialiasing {
     bool mixesSizes = false;
 };
 
+/// Surfaces and what they reflect, for stages that follow what a mirror shows rather than the mirror.
+struct Reflecting {
+    const Surfaces& surfaces;
+    const LobeLight* specular = nullptr;  ///< none: nothing reflects
+    gpu::Image lit{};                     ///< all light of the surfaces, not antialiased
+};
+
 /// Temporal antialiasing, and upscaling to the size of the output.
 Light antialias(gpu::PassList& f, TemporalStore& own, const ViewContext& in, const LightingSettings& settings,
-                const Light& light, const Antialiasing& to);
+                const Reflecting& reflecting, const Light& light, const Antialiasing& to);
 
 struct DofHistory {
     gpu::HistoryImage light{"circle_of_confusion"};
     gpu::HistoryImage coverage{"coverage.circle_of_confusion"};
 };
 
-/// The blur of the lens; the light itself if there is none. specular: reflections, which are blurred by the distance of
-/// what they show; none: like their surfaces.
+/// The blur of the lens; the light itself if there is none. Reflections are blurred by the distance of what they show.
 Light defocus(gpu::PassList& f, DofHistory& own, const ViewContext& in, const LightingSettings& settings,
-              const Lens& lens, const Surfaces& surfaces, const Light& light, const LobeLight* specular);
+              const Lens& lens, const Reflecting& reflecting, const Light& light);
 
 /// The blur of the shutter; the light itself if there is none. cameraBefore: world to clip space: only the camera has
 /// moved, from there; NULL: as the light's motion says.

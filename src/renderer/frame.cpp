@@ -70,24 +70,24 @@ const EnvironmentLight* skyOf(const FrameInputs& in) {
 // before: without the blended surfaces `front`, which `light` has. They move otherwise than what is behind them, so
 // they have a history of their own.
 lighting::Light withoutNoise(gpu::PassList& f, FrameStore& own, const FrameInputs& in, const Settings& settings,
-                             const lighting::Light& light, const lighting::Light& before,
-                             const BlendedSurfaces& blended) {
+                             const lighting::Reflecting& reflecting, const lighting::Light& light,
+                             const lighting::Light& before, const BlendedSurfaces& blended) {
     if (!historyUse(settings).temporal) {
         return light;
     }
     const lighting::ViewContext context = contextOf(in, settings);
     const lighting::Antialiasing to{in.outputSize, in.jitter, skyOf(in)};
     if (!blended.front.lit || light.coverage || settings.composite.direct == 0) {
-        return lighting::antialias(f, own.temporal, context, settings, light, to);
+        return lighting::antialias(f, own.temporal, context, settings, reflecting, light, to);
     }
-    lighting::Light out = lighting::antialias(f, own.temporal, context, settings, before, to);
+    lighting::Light out = lighting::antialias(f, own.temporal, context, settings, reflecting, before, to);
     const auto scope = f.scope("blend");
     lighting::Light front;
     front.lit = blended.front.lit;
     front.coverage = coverageOf(f, blended.front.lit);
     front.followedDepth = blended.depth;
     front.followedMotion = blended.motion;
-    front = lighting::antialias(f, own.blended, context, settings, front, to);
+    front = lighting::antialias(f, own.blended, context, settings, {reflecting.surfaces}, front, to);
     out.lit = blendAntialiased(f, front.lit, front.coverage, out.lit);
     out.direct = light.direct;  // with the blended surfaces, as `unfiltered`
     out.indirectDiffuse = light.indirectDiffuse;
@@ -153,14 +153,15 @@ FrameImages renderFrame(gpu::PassList& f, FrameStore& own, const FrameInputs& in
     // The picture.
     light = withMeans(f, own, in, settings, light);
     light = settings.composite.direct != 0 ? light : lighting::withoutDirect(f, light);
-    light = withoutNoise(f, own, in, settings, light, before, blended);
+    const lighting::Reflecting reflecting{seen.images, &specular, lighting::unfilteredOf(light)};
+    light = withoutNoise(f, own, in, settings, reflecting, light, before, blended);
     keepForNextFrame(f, lit, complete);  // last: it may overwrite the light that has been antialiased
     gpu::Image exposure;
     if (in.autoExposure) {
         exposure = lighting::exposure(f, own.exposure, settings, seen.images, light, in.elapsed,
                                       std::log2(in.view.preExposure));
     }
-    light = lighting::defocus(f, own.lens, context, settings, in.lens, seen.images, light, &specular);
+    light = lighting::defocus(f, own.lens, context, settings, in.lens, reflecting, light);
     light = lighting::blurMotion(f, context, settings, light, in.cameraBefore ? &*in.cameraBefore : nullptr);
     FrameImages out = imagesOf(seen.images, in, light);
     out.diffuse = diffuse;

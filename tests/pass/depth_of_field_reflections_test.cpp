@@ -95,7 +95,7 @@ public:
         settings.maxRadius = 0.25F;
         settings.reflections = m.enabled ? 1U : 0U;
         const Lens lens{.apertureRadius = aperture, .focusDistance = m.focus};
-        const DofReflections reflections{g, specular, lit, ggxTable(frame_, ggx_)};
+        const Reflections reflections{g, specular, lit, ggxTable(frame_, ggx_)};
         const DofInputs in{lit, g.depth, {}, view, lens, settings, reflections};
         const gpu::Readback copy = frame_.readback(depthOfField(frame_, coc_, in).coc);
         frame_.submit();

@@ -2,9 +2,6 @@
 #include "effects/depth_of_field/depth_of_field.h"
 
 #include "effects/levels.h"
-#include "effects/lobe/ray_tiles.h"
-#include "effects/lobe/upsample.h"
-#include "gpu/context.h"
 
 #include <algorithm>
 #include <array>
@@ -46,37 +43,10 @@ float shapeArea(uint32_t corners) {
     return corners < 3 ? glm::pi<float>() : 0.5F * n * std::sin(2.0F * glm::pi<float>() / n);
 }
 
-// The depth of what pixels show: of reflected images where these are most of the light.
+// The depth of what pixels show.
 gpu::Image apparentDepth(gpu::PassList& f, const DofInputs& in) {
-    if (!in.reflections || in.reflections->specular.dark || in.settings.reflections == 0) {
-        return in.depth;
-    }
-    const DofReflections& r = *in.reflections;
-    const gpu::Image apparent = f.image("apparent_depth", VK_FORMAT_R32_SFLOAT, in.depth.size);
-    const uvec2 tiles = (in.depth.size + rayTileSide - 1U) / rayTileSide;
-    const gpu::BufferView list = makeTileList(f, tiles);
-    f.compute("polished_tiles", "dof_polished_tiles.comp")
-        .read("depth", in.depth)
-        .read("material", r.g.material)
-        .write("apparentDepth", apparent)
-        .write("list", list)
-        .params(DofPolishedTilesParams{in.depth.size})
-        .dispatch(tiles);
-    gpu::ComputePass pass = f.compute("apparent_depth", "dof_apparent.comp");
-    bindSurfaces(f, pass, r.g).constant("lambertOnly", r.lambertOnly ? 1U : 0U);
-    bindUpsampledSpecular(f, pass, r.specular)
-        .read("depth", in.depth)
-        .read("normal", r.g.normal)
-        .read("geometricNormal", r.g.geometricNormal)
-        .read("baseColor", r.g.baseColor)
-        .read("material", r.g.material)
-        .read("ggxTable", r.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
-        .read("lit", r.lit)
-        .read("list", list)
-        .write("apparentDepth", apparent)
-        .params(DofApparentParams{in.view, blockPixelOffset(r.specular.from.scale)})
-        .dispatchIndirect(list, 0);
-    return apparent;
+    const bool reflects = in.reflections && in.settings.reflections != 0;
+    return reflects ? withReflectedImages(f, *in.reflections, in.view, {in.depth, {}}).depth : in.depth;
 }
 
 gpu::Image circleOfConfusion(gpu::PassList& f, gpu::HistoryImage& own, const DofInputs& in, float height) {

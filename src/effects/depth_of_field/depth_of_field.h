@@ -62,18 +62,6 @@ struct DofListHead {
 // Levels of the half-resolution layers, with level 0.
 const uint dofLevels = 5;
 
-// Perceptual roughness from which a surface shows no image that a lens could focus on.
-const float dofRoughestImage = 0.4;
-
-struct DofPolishedTilesParams {
-    uvec2 size;  // of the depth buffer
-};
-
-struct DofApparentParams {
-    ViewParams view;
-    uint specularBlockOffset;  // blockPixelOffset of the lobe
-};
-
 struct DofCocParams {
     vec4 depthToDistance;  // of the view
     vec4 lens;  // radius in pixels of the picture at infinity, 1 / focus distance, 1 if orthographic, largest radius
@@ -105,7 +93,7 @@ SHARED_END
 
 #ifdef __cplusplus
 
-#include "effects/lobe/rays.h"
+#include "effects/reflected_images/reflected_images.h"
 #include "gpu/pass_list.h"
 
 #include <optional>
@@ -120,15 +108,6 @@ struct Lens {
     float bladeRotation = 0.0F;  ///< radians, counter-clockwise as the camera sees the disks of what is far
 };
 
-/// What pixels reflect, of the size of the depth.
-struct DofReflections {
-    GBuffer g;
-    LobeLight specular;
-    gpu::Image lit;  ///< RGBA16F: the sum of all light, not antialiased
-    gpu::Image ggxTable;
-    bool lambertOnly = false;  ///< MaterialsSettings
-};
-
 struct DofInputs {
     gpu::Image radiance;     ///< RGBA16F or RGBA32F, of the picture's size; alpha is kept
     gpu::Image depth;        ///< reversed, of this size or smaller (temporal upscaling)
@@ -136,7 +115,7 @@ struct DofInputs {
     const ViewParams& view;  ///< of `depth`
     Lens lens;
     DofSettings settings;
-    std::optional<DofReflections> reflections{};  ///< none: reflections are blurred by their surface's distance
+    std::optional<Reflections> reflections{};  ///< none: reflections are blurred by their surface's distance
 };
 
 struct DofImages {

@@ -37,6 +37,9 @@ SHARED_BEGIN
     VALUE(float, clip, 1.0, 0.0, 16.0,                                                                                 \
           "History clip (variance clipping): maximum difference of the history from the pixels around it, in "         \
           "standard deviations. Lower: less ghosting, more flicker. 0: off, as after some frames at rest.")            \
+    SWITCH(reflections, 1,                                                                                             \
+           "Follow what smooth surfaces show of other things where that is most of their light, rather than the "      \
+           "surface. Off: moving reflections leave trails.")                                                           \
     VALUE(float, scale, 1.0, 0.25, 1.0,                                                                                \
           "Temporal upscaling: the share of the picture's width and height at which frames are rendered; their mean "  \
           "has full size. 0.5: a quarter of the cost of a frame, and twice as many frames until all is sharp.")

@@ -17,6 +17,7 @@ const float stillest = 0.25;     // pixels per frame; faster motion counts as no
 // At rest, jitter makes an edge or a thin bar appear in some of a pixel's frames only, so limits are widened by the
 // variance of past frames around their mean, unless the history is stale: staleShare between the includer's bounds
 // pixelStaleLimits.
+const float inMotion = -1.0;  // in place of that variance: the pixel moved
 
 struct HistorySample {
     vec4 mean;  // radiance, length
@@ -93,11 +94,14 @@ void accumulate(ivec2 pixel, Shown now) {
     }
     vec4 before = vec4(history.mean.rgb * now.relit, history.mean.a);
     vec2 differed = still > 0.0 ? imageLoad(previousDeviations, ivec2(at + 0.5)).rg : vec2(0.0);
+    // What has just come to rest may keep what the moving thing left behind: nobody knows yet how much jitter changes it.
+    float rested = differed.x < 0.0 ? 0.0 : 1.0;
+    differed *= rested;
     float stretch = exposedStretch(toneCompress(history.mean.rgb).x);
     differed *= vec2(stretch * stretch, stretch);
     float stale = ramp(staleShare(differed.y, differed.x, now.middle.x), pixelStaleLimits);
     float disturbed = max(now.disturbed, 0.0);
-    float trust = still * (1.0 - stale) * (1.0 - disturbed);
+    float trust = rested * still * (1.0 - stale) * (1.0 - disturbed);
     float variance = trust * differed.x;
 
     vec3 held = toneCompress(before.rgb);
@@ -139,7 +143,8 @@ void accumulate(ivec2 pixel, Shown now) {
 #endif
     float off = own.x - clipped.x;
     vec2 differs =
-        vec2(still * mix(variance, off * off, part), trust * mix(differed.y, off, max(part, recentShare * now.inside)));
+        vec2(still > 0.0 ? still * mix(variance, off * off, part) : inMotion,
+             trust * mix(differed.y, off, max(part, recentShare * now.inside)));
     imageStore(deviations, pixel, vec4(differs, 0.0, 0.0));
 }
 
