@@ -240,7 +240,7 @@ struct Lamp {
     float innerAngle = 0.0F;                      ///< spot: from the axis, full strength inside
     float outerAngle = glm::quarter_pi<float>();  ///< spot: from the axis, dark outside
     /// Radius in metres of a disk that faces each receiver; 0: a point. It softens the lamp's shadows only: shading is
-    /// that of a punctual light, as in KHR_lights_punctual. Ignored for directional lamps.
+    /// that of a punctual light, as in KHR_lights_punctual. Directional: the tangent of half the angular diameter.
     float radius = 0.0F;
     int32_t node = -1;  ///< index into Scene::nodes that it moves with; < 0: none
 };

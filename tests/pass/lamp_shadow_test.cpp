@@ -195,7 +195,7 @@ TEST(LampShadow, IsCastByTheStrongestAndTheOthersShineThroughEverythingWithAWarn
         ShadowSettings settings;
         settings.lamps = most;
         settings.lampResolution = resolution;
-        const LampShadows shadows = planLampShadows(changed, settings, largestSide, 0.0F,
+        const LampShadows shadows = planLampShadows(changed, settings, largestSide, {},
                                                     [&](const std::string& text) { warnings.push_back(text); });
         std::vector<uint32_t> indices;
         for (uint32_t i = 0; i < lamps.count; ++i) {
@@ -207,8 +207,8 @@ TEST(LampShadow, IsCastByTheStrongestAndTheOthersShineThroughEverythingWithAWarn
     EXPECT_EQ(plan(8, 512, 16384).second, (std::vector<uint32_t>{1, 2, 0, none}));
     EXPECT_TRUE(warnings.empty());
     EXPECT_EQ(plan(1, 512, 16384).second, (std::vector<uint32_t>{none, none, 0, none}));
-    EXPECT_EQ(warnings, std::vector<std::string>{"the scene has 3 point and spot lamps, but only the strongest 1 cast "
-                                                 "shadows: shadow.lamps is the limit"});
+    EXPECT_EQ(warnings, std::vector<std::string>{"the scene has 3 lamps, but only the strongest 1 cast shadows: "
+                                                 "shadow.lamps is the limit"});
     EXPECT_EQ(plan(0, 512, 16384).first.count, 0U);
     const LampShadows smaller = plan(8, 512, 2048).first;  // 18 tiles, 5 in a row
     EXPECT_EQ(smaller.tileSize, 256U);
