@@ -329,7 +329,7 @@ struct View {
     Environment environment;
     Background background;
     double time = 0.0;                         ///< of the scene's animations [s], 0 to largestTime
-    std::optional<float> lampRadius;           ///< overrides the radius of all lamps [m]
+    std::optional<float> lampRadius;           ///< overrides the radius of all point and spot lamps [m]
     std::vector<uint32_t> lampsOff;            ///< indices into Scene::lamps that are off, ascending
     std::optional<std::vector<Probe>> probes;  ///< at most maxProbes; nullopt: placed automatically
     std::vector<std::string> mirrors;          ///< instances with planar reflections; empty: detected automatically
