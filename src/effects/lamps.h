@@ -39,7 +39,7 @@ struct LampParams {
     float cosOuter;      // spot, reflected: cosine of the outer cone angle, beyond which it is dark. Emitter: S.xz,
                          // S.yz
     vec3 extent;   // emitter: covariance of its points over the square of `radius`: xx, yy, zz, xy, xz, yz as halfs
-    float radius;  // of its disk, for soft shadows [m]
+    float radius;  // of its disk, for soft shadows [m]; directional: tangent of half its angular diameter
     uint shadow;   // index among the shadow-casting lamps, or noLampShadow
 };
 

@@ -69,7 +69,9 @@ Lights::Lights(const RayScene& rays, const View& view)
       lamps_(rays.scene().lamps),
       environment_(view.environment) {
     for (Lamp& lamp : lamps_) {
-        lamp.radius = view.lampRadius.value_or(lamp.radius);
+        if (lamp.type != Lamp::Type::directional) {
+            lamp.radius = view.lampRadius.value_or(lamp.radius);
+        }
     }
     for (const uint32_t off : view.lampsOff) {
         if (off < lamps_.size()) {

@@ -178,6 +178,8 @@ vec3 PathTracer::lit(Walk& walk, const SurfacePoint& point, const LightSample& l
         const uint32_t random = ray.random;
         ray = rayToLamp(origin, point.position + light.toLight * light.distance, light);
         ray.random = random;
+    } else if (light.aside != vec3(0.0F)) {  // a directional lamp: a tangent
+        ray.direction = glm::normalize(light.toLight + light.aside);
     }
     if (ray.far <= 0.0F) {
         return vec3(1.0F);

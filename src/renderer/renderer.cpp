@@ -57,21 +57,30 @@ void Renderer::pose(const View& view) {
     pose_ = std::move(now);
 }
 
-LampShadows Renderer::planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings) {
+LampBlock Renderer::ownLamps(const View& view, const Settings& settings) const {
+    LampBlock lamps = scene_.lamps(lightsByEmitters(settings));
     for (uint32_t i = 0; i < lamps.count; ++i) {
-        if (lamps.lamps[i].type == lampEmitter || lamps.lamps[i].type == lampReflected) {
+        if (lamps.lamps[i].type == lampEmitter) {
             continue;
         }
-        lamps.lamps[i].radius = view.lampRadius.value_or(lamps.lamps[i].radius);
+        if (lamps.lamps[i].type != lampDirectional) {
+            lamps.lamps[i].radius = view.lampRadius.value_or(lamps.lamps[i].radius);
+        }
         if (std::ranges::binary_search(view.lampsOff, i)) {
             lamps.lamps[i].intensity = vec3(0.0F);
         }
     }
+    return lamps;
+}
+
+LampShadows Renderer::planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings) {
     // Images larger than that are more memory (1 GiB) than shadows of lamps are worth.
     const uint32_t largestSide = std::min(frame_.device().limits().maxImageDimension2D, 16384U);
+    const Camera& camera = view.camera;
+    const LampShadowScene scene{scene_.draws().boundsW, camera.position,
+                                glm::normalize(camera.target - camera.position)};
     const LampShadows shadows =
-        planLampShadows(lamps, settings, largestSide, glm::length(scene_.draws().boundsW.size()),
-                        [&](const std::string& text) { warnOnce(text); });
+        planLampShadows(lamps, settings, largestSide, scene, [&](const std::string& text) { warnOnce(text); });
     for (uint32_t i = 0; i < lamps.count; ++i) {
         if (lamps.lamps[i].type == lampReflected && lamps.lamps[i].shadow == noLampShadow &&
             settings.filter != ShadowFilter::traced) {
@@ -261,10 +270,10 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
     const double posedBefore = pose_ ? pose_->time : -1.0;
     pose(view);
     const bool moved = posedBefore >= 0.0 && pose_->time != posedBefore;
-    LampBlock lamps = scene_.lamps(lightsByEmitters(settings));
+    LampBlock lamps = ownLamps(view, settings);
     addReflectedSuns(lamps, view, settings);
-    const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
     addLamps(lamps, otherSuns);
+    const LampShadows lampShadows = planLamps(lamps, view, settings.shadow);
     const float lightChange = lightChange_.update(lamps, view);
     ViewParams params = nextParams(view, size, seed, settings);
     params.preExposure = preExpose(lamps, view);

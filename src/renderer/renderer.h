@@ -56,7 +56,9 @@ public:
 private:
     /// Poses the scene at the time of the view.
     void pose(const View& view);
-    /// Sets the lamp radii of the view and chooses the lamps that cast shadows. Gives each warning once.
+    /// Lamps and emitters of the scene, with the radii of the view and without those that it switches off.
+    [[nodiscard]] LampBlock ownLamps(const View& view, const Settings& settings) const;
+    /// Chooses the lamps that cast shadows. Gives each warning once.
     LampShadows planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings);
     void addReflectedSuns(LampBlock& lamps, const View& view, const Settings& settings) const;
     /// Multiplies the lights by the pre-exposure, and returns it.

@@ -231,6 +231,7 @@ Lamp directionalLamp(const Sun& sun) {
     lamp.type = Lamp::Type::directional;
     lamp.direction = sun.direction;
     lamp.intensity = sun.irradiance;
+    lamp.radius = std::tan(0.5F * sun.angularDiameter);
     return lamp;
 }
 

@@ -240,7 +240,7 @@ struct Lamp {
     float innerAngle = 0.0F;                      ///< spot: from the axis, full strength inside
     float outerAngle = glm::quarter_pi<float>();  ///< spot: from the axis, dark outside
     /// Radius in metres of a disk that faces each receiver; 0: a point. It softens the lamp's shadows only: shading is
-    /// that of a punctual light, as in KHR_lights_punctual. Ignored for directional lamps.
+    /// that of a punctual light, as in KHR_lights_punctual. Directional: the tangent of half the angular diameter.
     float radius = 0.0F;
     int32_t node = -1;  ///< index into Scene::nodes that it moves with; < 0: none
 };
@@ -329,7 +329,7 @@ struct View {
     Environment environment;
     Background background;
     double time = 0.0;                         ///< of the scene's animations [s], 0 to largestTime
-    std::optional<float> lampRadius;           ///< overrides the radius of all lamps [m]
+    std::optional<float> lampRadius;           ///< overrides the radius of all point and spot lamps [m]
     std::vector<uint32_t> lampsOff;            ///< indices into Scene::lamps that are off, ascending
     std::optional<std::vector<Probe>> probes;  ///< at most maxProbes; nullopt: placed automatically
     std::vector<std::string> mirrors;          ///< instances with planar reflections; empty: detected automatically

@@ -1,6 +1,6 @@
 // Suns in environment images against the path tracer, which samples the image itself.
 #include "compare/compare.h"
-#include "pass/harness.h"
+#include "pass/lamp_room.h"
 #include "reference/reference.h"
 #include "renderer/presets.h"
 #include "scene/environment.h"
@@ -12,13 +12,15 @@ namespace {
 
 constexpr uvec2 size(60, 34);
 
-// A sky of 0.4 with a sun of 2x2 texels.
-Environment sunnySky() {
+// A sky of 0.4 with suns of 2x2 texels from these columns on, each weaker than the one before.
+Environment sunnySky(const std::vector<uint32_t>& columns = {170}) {
     FloatImage image{256, 128, {"R", "G", "B"}, std::vector<float>(size_t{3} * 256 * 128, 0.4F)};
     for (const uint32_t row : {39U, 40U}) {
-        for (const uint32_t column : {170U, 171U}) {
+        for (size_t i = 0; i < 2 * columns.size(); ++i) {
+            const uint32_t column = columns[i / 2] + i % 2;
             for (uint32_t channel = 0; channel < 3; ++channel) {
-                image.data[3 * (row * 256 + column) + channel] = 12000.0F - 2000.0F * static_cast<float>(channel);
+                image.data[3 * (row * 256 + column) + channel] =
+                    (12000.0F - 2000.0F * static_cast<float>(channel)) / static_cast<float>(1 + i / 2);
             }
         }
     }
@@ -56,6 +58,36 @@ TEST(ImageSuns, LightAndCastShadowsAsInTheReference) {
     const Difference d = compareImages(p.images.at("final"), truth.final, {}).difference;
     EXPECT_LT(d.relativeMse, 0.025);  // a single object has no probes; with them: 0.02
     EXPECT_LT(std::abs(d.bias), 0.04);
+}
+
+TEST(ImageSuns, AllCastShadows) {
+    View view = viewOf(sunnySky({170, 100}));
+    const vec3 toSecond = environmentDirection(vec2(101, 40) / vec2(256, 128), 0.0F);
+    const Pictures p = render(boxOnGround(), view, size, settingsOf({"diffuse.rays=0", "specular.rays=0"}),
+                              {"lamp_visibility", "depth"});
+    unsigned dark = 0;
+    unsigned lit = 0;
+    for (unsigned y = 0; y < size.y; ++y) {
+        for (unsigned x = 0; x < size.x; ++x) {
+            if (!p.hasSurface(x, y) || std::abs(p.position(x, y).y) > 1e-3F) {
+                continue;
+            }
+            const vec3 at = p.position(x, y);
+            const auto shadowed = [&](float grown) {
+                return meets({vec3(-0.4F, 0, -0.4F) - grown, vec3(0.4F, 1.6F, 0.4F) + grown}, at,
+                             at + 10.0F * toSecond);
+            };
+            if (shadowed(-0.1F)) {  // the penumbra is up to 0.1 m wide
+                EXPECT_LT(p.value("lamp_visibility", x, y), 0.02F) << at.x << ", " << at.z;
+                ++dark;
+            } else if (!shadowed(0.1F)) {
+                EXPECT_GT(p.value("lamp_visibility", x, y), 0.98F) << at.x << ", " << at.z;
+                ++lit;
+            }
+        }
+    }
+    EXPECT_GT(dark, 20U);
+    EXPECT_GT(lit, 500U);
 }
 
 TEST(ImageSuns, StayInTheBackgroundAndGoWithTheEnvironment) {

@@ -86,5 +86,26 @@ TEST_F(KeptMaps, ThoseOfLampsAreDrawnOnceWhileNothingMoves) {
     EXPECT_TRUE(drawsLamps(view));
 }
 
+TEST_F(KeptMaps, ThoseOfADirectionalLampAreDrawnAgainOnlyAfterSomeWayOfTheCamera) {
+    Scene lit = *makeBuiltinScene("lamps");
+    Lamp lamp;
+    lamp.type = Lamp::Type::directional;
+    lamp.direction = glm::normalize(vec3(0.3F, -1.0F, 0.2F));
+    lit.lamps = {lamp};
+    Renderer renderer(device(), lit, [](const std::string&) {});
+    View view = defaultView(lit);
+    unsigned drawn = 0;
+    const float step = 0.002F * glm::distance(view.camera.position, view.camera.target);
+    for (int i = 0; i < 40; ++i) {
+        view.camera.position.x += step;
+        view.camera.target.x += step;
+        renderer.render(view, size, 0, settings_);
+        const auto& times = renderer.frame().passTimes();
+        drawn += std::ranges::find(times, "lamp_shadow_map", &gpu::PassTime::name) != times.end() ? 1U : 0U;
+    }
+    EXPECT_GT(drawn, 1U);
+    EXPECT_LT(drawn, 12U);
+}
+
 }  // namespace
 }  // namespace reflet::test::kept_maps_test

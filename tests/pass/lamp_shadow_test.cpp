@@ -188,6 +188,7 @@ TEST(LampShadow, IsCastByTheStrongestAndTheOthersShineThroughEverythingWithAWarn
         lamps.lamps[i].shadow = noLampShadow;
     }
     lamps.lamps[3].type = lampDirectional;
+    LampShadowScene scene;  // empty: there is nothing that a directional lamp's tiles could show
     std::vector<std::string> warnings;
     const auto plan = [&](uint32_t most, uint32_t resolution, uint32_t largestSide) {
         warnings.clear();
@@ -195,7 +196,7 @@ TEST(LampShadow, IsCastByTheStrongestAndTheOthersShineThroughEverythingWithAWarn
         ShadowSettings settings;
         settings.lamps = most;
         settings.lampResolution = resolution;
-        const LampShadows shadows = planLampShadows(changed, settings, largestSide, 0.0F,
+        const LampShadows shadows = planLampShadows(changed, settings, largestSide, scene,
                                                     [&](const std::string& text) { warnings.push_back(text); });
         std::vector<uint32_t> indices;
         for (uint32_t i = 0; i < lamps.count; ++i) {
@@ -207,9 +208,12 @@ TEST(LampShadow, IsCastByTheStrongestAndTheOthersShineThroughEverythingWithAWarn
     EXPECT_EQ(plan(8, 512, 16384).second, (std::vector<uint32_t>{1, 2, 0, none}));
     EXPECT_TRUE(warnings.empty());
     EXPECT_EQ(plan(1, 512, 16384).second, (std::vector<uint32_t>{none, none, 0, none}));
-    EXPECT_EQ(warnings, std::vector<std::string>{"the scene has 3 point and spot lamps, but only the strongest 1 cast "
-                                                 "shadows: shadow.lamps is the limit"});
+    EXPECT_EQ(warnings, std::vector<std::string>{"the scene has 3 lamps, but only the strongest 1 cast shadows: "
+                                                 "shadow.lamps is the limit"});
     EXPECT_EQ(plan(0, 512, 16384).first.count, 0U);
+    scene.bounds = {vec3(-1.0F), vec3(1.0F)};
+    EXPECT_EQ(plan(8, 512, 16384).second, (std::vector<uint32_t>{2, 3, 1, 0})) << "as at 5 m";
+    scene.bounds = {};
     const LampShadows smaller = plan(8, 512, 2048).first;  // 18 tiles, 5 in a row
     EXPECT_EQ(smaller.tileSize, 256U);
     EXPECT_EQ(smaller.columns, 5U);

@@ -29,6 +29,7 @@ const uint lampStream = 0x1a90u;       // of the noise
 const uint lampsPerEmitter = 4u;       // samples of a lamp over those of an emitter, of which there may be many
 
 LampReceiver receiver;
+float wayThroughCasters;  // from the receiver toward a directional lamp [m]
 ShadowTexel shadowTexel(vec2 offset) { return lampTexel(receiver, offset); }
 float hardShadow() { return hardLampVisibility(receiver); }
 #include "shaders/soft_shadow.glsl"
@@ -62,8 +63,9 @@ float pcss(ShadowCone cone, vec4 noise, ShadowSettings s) {
     float least = minFilterRadius * receiver.texel;
     // Any depth of the tile could cast, but for blockers closer to the lamp than ten radii the search would get far too
     // wide: they are found only where they hide the lamp's centre (lampSearchTangent).
-    float radius = min(penumbraRadius(cone, receiver.distance - receiver.shadow.near),
-                       lampSearchTangent * receiver.distance);
+    // No blocker of a directional lamp is beyond the casters' bounds.
+    float highest = isDistant(receiver.shadow) ? wayThroughCasters : receiver.distance - receiver.shadow.near;
+    float radius = min(penumbraRadius(cone, highest), lampSearchTangent * receiver.distance);
     if (radius <= least) {
         return sharpLampVisibility(receiver);
     }
@@ -82,6 +84,13 @@ float pcss(ShadowCone cone, vec4 noise, ShadowSettings s) {
                : diskVisibility(cone, height, least, receiver.bias, shadowPattern(s, s.samples, noise.xy), s.samples);
 }
 
+// Metres from p along a unit direction to where it leaves the bounds of all casters.
+float wayToBounds(vec3 p, vec3 direction) {
+    vec3 ahead = mix(shadowBlock.boundsMin, shadowBlock.boundsMax, greaterThan(direction, vec3(0.0))) - p;
+    vec3 ways = abs(ahead) / max(abs(direction), vec3(1e-6));
+    return min(ways.x, min(ways.y, ways.z));
+}
+
 float visibilityAt(ivec2 pixel, uint index, vec3 p, vec3 n) {
     LampShadow shadow = shadowBlock.lamps[index];
     vec3 toLamp;
@@ -91,8 +100,11 @@ float visibilityAt(ivec2 pixel, uint index, vec3 p, vec3 n) {
         return 0.0;  // out of its range or cone, or in the surface's own shadow
     }
     ShadowSettings s = params.settings;
+    bool distant = isDistant(shadow);
+    wayThroughCasters = distant ? wayToBounds(p, toLamp) : 0.0;
     receiver = lampReceiver(shadow, shadowBlock.tileSize, shadowBlock.columns, p, n, s.bias,
-                            roundingOfPixel(p, pixelWidth(p, params.view.viewPlane, params.view.eye, params.view.pixelAngle)));
+                            roundingOfPixel(p, pixelWidth(p, params.view.viewPlane, params.view.eye, params.view.pixelAngle)),
+                            shadow.lamp.radius * wayThroughCasters);
     if (filterKind == ShadowFilter_hard) {
         return hardLampVisibility(receiver);
     }
@@ -101,12 +113,12 @@ float visibilityAt(ivec2 pixel, uint index, vec3 p, vec3 n) {
         float radius = s.radius * (s.radiusUnit == ShadowUnit_texels ? receiver.texel : 1.0);
         return pcfVisibility(radius, receiver.bias, shadowPattern(s, s.samples, noise.xy), s.samples);
     }
-    float slope = shadow.lamp.radius / receiver.distance;
+    float slope = distant ? shadow.lamp.radius : shadow.lamp.radius / receiver.distance;
     float share = fractionAboveHorizon(facing, slope * inversesqrt(1.0 + slope * slope));
     if (shadow.lamp.type == lampEmitter) {
         return share * sharpLampVisibility(receiver);
     }
-    return share * pcss(ShadowCone(slope, 1.0 / receiver.distance), noise, s);
+    return share * pcss(ShadowCone(slope, distant ? 0.0 : 1.0 / receiver.distance), noise, s);
 }
 
 void main() {

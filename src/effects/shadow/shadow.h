@@ -80,10 +80,12 @@ CHOICES(ShadowUnit, SHADOW_UNITS)
     VALUE(float, cascadeBlend, 0.1, 0.0, 1.0,                                                                          \
           "Fraction of each cascade's depth range, at its far end, that is blended into the next. 0: visible seams.")  \
     VALUE(uint, lamps, 8, 0, 16,                                                                                       \
-          "Maximum number of point and spot lamps with shadows; the strongest are chosen, the others shine through "   \
+          "Maximum number of lamps with shadows, besides the sun; the strongest are chosen, the others shine through " \
           "geometry.")                                                                                                 \
-    VALUE(uint, lampResolution, 512, 64, 4096,                                                                         \
-          "Side of a lamp's shadow map in texels. A point lamp has six maps, a spot lamp one.")                        \
+    VALUE(                                                                                                             \
+        uint, lampResolution, 512, 64, 4096,                                                                           \
+        "Side of a lamp's shadow map in texels. A point lamp has six maps, a spot lamp one, a directional lamp four, " \
+        "each half as wide as the one before. More: sharper shadows, more memory and time.")                           \
     SWITCH(                                                                                                            \
         denoise, 1,                                                                                                    \
         "Denoise penumbras over neighbouring pixels and frames (pcf, pcss). Removes the noise of low sample counts.")  \

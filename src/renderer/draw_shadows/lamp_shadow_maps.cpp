@@ -18,16 +18,20 @@ namespace {
 
 constexpr float widestSpot = 60.0F;  // degrees from the axis; beyond that a cube map wastes less than a single tile
 
+constexpr float squaredSunDistance = 25.0F;  // at which a lamp brings the irradiance of a directional lamp as strong
+
 float strength(const LampParams& lamp) {
-    return std::max({lamp.intensity.x, lamp.intensity.y, lamp.intensity.z});
+    const float intensity = std::max({lamp.intensity.x, lamp.intensity.y, lamp.intensity.z});
+    return lamp.type == lampDirectional ? squaredSunDistance * intensity : intensity;
 }
 
 // Indices of the lamps besides emitters that can cast shadows, the strongest first.
-std::vector<uint32_t> casters(const LampBlock& lamps) {
+std::vector<uint32_t> casters(const LampBlock& lamps, const LampShadowScene& scene) {
     std::vector<uint32_t> indices;
     for (uint32_t i = 0; i < lamps.count; ++i) {
-        const bool punctual = lamps.lamps[i].type == lampPoint || lamps.lamps[i].type == lampSpot;
-        if (punctual && strength(lamps.lamps[i]) > 0.0F) {
+        const uint32_t type = lamps.lamps[i].type;
+        const bool distant = type == lampDirectional && !scene.bounds.empty();
+        if ((type == lampPoint || type == lampSpot || distant) && strength(lamps.lamps[i]) > 0.0F) {
             indices.push_back(i);
         }
     }
@@ -43,6 +47,10 @@ std::vector<uint32_t> casters(const LampBlock& lamps) {
 
 bool hasOneTile(const LampParams& lamp) {
     return lamp.type == lampReflected || (lamp.type == lampSpot && lamp.cosOuter > std::cos(glm::radians(widestSpot)));
+}
+
+uint32_t tilesOf(const LampParams& lamp) {
+    return lamp.type == lampDirectional ? nestedTiles : hasOneTile(lamp) ? 1 : cubeFaces;
 }
 
 // index: in the block, of a lamp that is lit wherever this one is.
@@ -92,7 +100,7 @@ vec4 mirrorOf(const LampParams& lamp) {
 
 // Rows are the tile's axes.
 mat3 tileRotation(const LampShadow& shadow, uint32_t face) {
-    if (shadow.tiles == 1) {
+    if (shadow.tiles != cubeFaces) {
         return shadow.worldToTile;
     }
     const auto axis = static_cast<int>(face / 2);
@@ -104,6 +112,9 @@ mat3 tileRotation(const LampShadow& shadow, uint32_t face) {
 }
 
 mat4 worldToClip(const LampShadow& shadow, uint32_t face) {
+    if (shadow.lamp.type == lampDirectional) {
+        return worldToNestedTile(shadow, face);
+    }
     mat4 tileToClip(0.0F);
     tileToClip[0][0] = 1.0F / shadow.halfTangent;
     tileToClip[1][1] = 1.0F / shadow.halfTangent;
@@ -163,27 +174,38 @@ uint32_t tilesOf(const LampShadows& shadows) {
 
 }  // namespace
 
-LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, uint32_t largestSide, float reach,
-                            const std::function<void(const std::string&)>& warn) {
+// seenFrom: a lamp or a group of emitters, of which `index` is the first.
+static LampShadow plannedShadow(const LampParams& seenFrom, uint32_t index, uint32_t tile, uint32_t tileSize,
+                                const LampShadowScene& scene) {
+    if (seenFrom.type == lampDirectional) {
+        return nestedShadow(seenFrom, index, tile, tileSize, scene);
+    }
+    return seenFrom.type == lampReflected ? beamOf(seenFrom, index, tile, tileSize, glm::length(scene.bounds.size()))
+                                          : shadowOf(seenFrom, index, tile, tileSize);
+}
+
+LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, uint32_t largestSide,
+                            const LampShadowScene& scene, const std::function<void(const std::string&)>& warn) {
     LampShadows shadows{};
+    shadows.boundsMin = scene.bounds.min;
+    shadows.boundsMax = scene.bounds.max;
     if (settings.filter == ShadowFilter::none || settings.lamps == 0) {
         return shadows;
     }
-    std::vector<uint32_t> indices = casters(lamps);
+    std::vector<uint32_t> indices = casters(lamps, scene);
     constexpr uint32_t keptForEmitters = 4;
     const uint32_t room = maxShadowedLamps - (anyEmitters(lamps) ? keptForEmitters : 0);
     const uint32_t own = std::min({settings.lamps, room, static_cast<uint32_t>(indices.size())});
     if (indices.size() > own) {
-        warn(fmt::format(
-            "the scene has {} point and spot lamps, but only the strongest {} cast shadows: shadow.lamps is the limit",
-            indices.size(), own));
+        warn(fmt::format("the scene has {} lamps, but only the strongest {} cast shadows: shadow.lamps is the limit",
+                         indices.size(), own));
     }
     indices.resize(own);
     std::vector<EmitterGroup> groups;  // one of each lamp, too
     uint32_t tiles = 0;
     for (const uint32_t i : indices) {
         groups.push_back({{i}, lamps.lamps[i]});
-        tiles += hasOneTile(lamps.lamps[i]) ? 1 : cubeFaces;
+        tiles += tilesOf(lamps.lamps[i]);
     }
     for (EmitterGroup& group :
          groupEmitters(lamps, std::min({settings.lamps, maxShadowedLamps - own, keptForEmitters}))) {
@@ -201,9 +223,7 @@ LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, ui
             lamps.lamps[lamp].shadow = i;
         }
         const LampParams& from = groups[i].seenFrom;
-        shadows.lamps[i] = from.type == lampReflected
-                               ? beamOf(from, groups[i].lamps.front(), tile, shadows.tileSize, reach)
-                               : shadowOf(from, groups[i].lamps.front(), tile, shadows.tileSize);
+        shadows.lamps[i] = plannedShadow(from, groups[i].lamps.front(), tile, shadows.tileSize, scene);
     }
     if (shadows.tileSize < settings.lampResolution) {
         warn(fmt::format(

@@ -1,21 +1,23 @@
-// The shadow maps of point and spot lamps: which lamps have one, and their drawing.
+// The shadow maps of lamps: which lamps have one, and their drawing.
 #pragma once
 
 #include "effects/shadow/lamp_shadow.h"
 #include "gpu/pass_list.h"
 #include "renderer/draw_list.h"
+#include "renderer/draw_shadows/distant_lamp.h"
 
 #include <functional>
 #include <string>
 
 namespace reflet {
 
-/// Assigns tiles to as many lamps as `settings` allow: the strongest by the largest of red, green and blue intensity,
-/// independent of the view, so that shadows do not pop as the camera moves. Sets the lamps' `shadow`. Tiles are halved
-/// in size until the atlas has at most `largestSide` texels a side. reach: of what casts shadows in reflected suns [m].
-/// Those come first; those without a tile get no light. `warn` receives messages about what is left out.
-LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, uint32_t largestSide, float reach,
-                            const std::function<void(const std::string&)>& warn);
+/// Assigns tiles to as many lamps as `settings` allow: the strongest by the largest of red, green and blue intensity
+/// (directional lamps: that of a lamp which brings their irradiance from 5 metres), independent of the view, so that
+/// shadows do not pop as the camera moves. Sets the lamps' `shadow`. Tiles are halved in size until the atlas has at
+/// most `largestSide` texels a side. Reflected suns come first; those without a tile get no light. `warn` receives
+/// messages about what is left out.
+LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, uint32_t largestSide,
+                            const LampShadowScene& scene, const std::function<void(const std::string&)>& warn);
 
 /// Draws depth from the lamps, both sides of every surface: D32, reversed (near / distance along the tile's axis).
 gpu::Image drawLampShadowMap(gpu::PassList& f, gpu::KeptImage& own, const DrawList& list, const LampShadows& shadows);

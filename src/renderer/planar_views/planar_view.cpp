@@ -110,7 +110,9 @@ MirroredScene mirroredScene(const ViewInputs& in, const Mirror& mirror, const Sh
         lamp.shadow = noLampShadow;
         lamp.intensity = lamp.type == lampReflected ? vec3(0.0F) : lamp.intensity;  // mirrors of the copy have no sun
     }
-    room.lampShadows = planLampShadows(room.lamps, settings, largestSide, 0.0F, [](const std::string&) {});
+    const vec4 near = reflection * in.view.clipToWorld * vec4(0, 0, 1, 1);  // the middle of the near plane
+    const LampShadowScene scene{room.draws.boundsW, vec3(near) / near.w, mat3(reflection) * vec3(in.view.viewPlane)};
+    room.lampShadows = planLampShadows(room.lamps, settings, largestSide, scene, [](const std::string&) {});
     return room;
 }
 

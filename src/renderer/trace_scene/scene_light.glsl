@@ -82,20 +82,22 @@ void aimAtReflectedSun(LampParams lamp, vec3 origin, vec3 toLamp, vec2 u, inout 
     ray.behind = reflect(ray.direction, n);
 }
 
-// Shadow ray to a point of the lamp's disk, ending at the lamp's clearance (docs/conventions.md).
+// Shadow ray to a point of the lamp's disk, ending at the lamp's clearance (docs/conventions.md). Disks of directional
+// lamps are infinitely far away.
 void aimAtLamp(LitPoint at, LampParams lamp, vec3 origin, vec3 toLamp, vec2 u, inout LightRay ray) {
-    ray.direction = toLamp;
     ray.far = sceneFar;
     ray.behind = vec3(0.0);
-    if (lamp.type == lampDirectional) {
-        return;
-    }
     if (anyReflected != 0u && lamp.type == lampReflected) {
         aimAtReflectedSun(lamp, origin, toLamp, u, ray);
         return;
     }
     vec2 place = lamp.radius * diskPoint(u);
-    ray.direction = lamp.position + basisAround(toLamp) * vec3(place, 0.0) - origin;
+    vec3 aside = basisAround(toLamp) * vec3(place, 0.0);
+    if (lamp.type == lampDirectional) {
+        ray.direction = normalize(toLamp + aside);
+        return;
+    }
+    ray.direction = lamp.position + aside - origin;
     float way = length(ray.direction);
     float square = dot(place, place);
     float clearance = max(lamp.radius, 1e-3);

@@ -75,7 +75,7 @@ Lamp placeLamp(const tinygltf::Light& source, const mat4& toWorld, const std::st
     if (lamp.type == Lamp::Type::spot) {
         readCone(source.spot, part, lamp, report);
     }
-    if (source.extras.Has("radius")) {
+    if (lamp.type != Lamp::Type::directional && source.extras.Has("radius")) {
         lamp.radius = static_cast<float>(source.extras.Get("radius").GetNumberAsDouble());
     }
     return lamp;
