@@ -87,6 +87,7 @@ LobeInputs inputsOf(const ViewContext& in, const LightingSettings& settings, uin
             .sources = {},
             .others = {},
             .ambientOcclusion = surfaces.ambientOcclusion,
+            .followsImages = settings.temporal.enabled != 0 && settings.temporal.reflections != 0,
             .countSteps = settings.traceScreen.countSteps != 0,
             .countHits = settings.traceScreen.countHits != 0,
             .coneShare = settings.traceScreen.enabled != 0 ? coneShareOnScreen : 0.0F,

@@ -119,14 +119,13 @@ void ApiMachine::changeSettings(const SettingsSlot& slot) {
             note(ApiCall::setSetting, refletSetSetting(handle, orNull(name.c_str()), orNull(value.c_str())));
             break;
         }
-        case 2:
-        case 3:
-            if (info.choiceCount > 0) {
-                note(ApiCall::setSetting,
-                     refletSetSetting(handle, info.name, info.choices[bytes_.below(info.choiceCount)]));
-                break;
-            }
-            [[fallthrough]];
+        case 2: {
+            constexpr std::array<const char*, 4> values{"1", "true", "0.5", "2"};
+            const char* const value = info.choiceCount > 0 ? info.choices[bytes_.below(info.choiceCount)]
+                                                           : values[bytes_.below(values.size())];
+            note(ApiCall::setSetting, refletSetSetting(handle, info.name, value));
+            break;
+        }
         default: {
             const uint8_t how = bytes_.byte();
             const double within = info.min + (info.max - info.min) * bytes_.byte() / 255.0;

@@ -141,13 +141,13 @@ public:
         const gpu::History lit = stores_.lit.swap(f, colorFormat, size);
         const lighting::LightParts parts = lightIndirectly(f, context, settings, surfaces, direct, lit);
         const lighting::Light light = lighting::compose(f, context, settings, surfaces, parts, true, lit.next);
+        const lighting::Reflecting reflecting{surfaces, &parts.specular, light.lit};
         const lighting::Light mean =
-            lighting::antialias(f, stores_.temporal, context, settings, light, {size, vec2(0.0F)});
-        const lighting::Light upscaled =
-            lighting::antialias(f, stores_.upscaling, context, settings, light, {2U * size, vec2(0.1F, -0.2F)});
+            lighting::antialias(f, stores_.temporal, context, settings, reflecting, light, {size, vec2(0.0F)});
+        const lighting::Light upscaled = lighting::antialias(f, stores_.upscaling, context, settings, reflecting, light,
+                                                             {2U * size, vec2(0.1F, -0.2F)});
         const Lens lens{.apertureRadius = 0.05F, .focusDistance = 2.0F};
-        const lighting::Light defocused =
-            lighting::defocus(f, stores_.lens, context, settings, lens, surfaces, mean, &parts.specular);
+        const lighting::Light defocused = lighting::defocus(f, stores_.lens, context, settings, lens, reflecting, mean);
         f.keep(lighting::blurMotion(f, context, settings, defocused).lit);
         const lighting::Light means = lighting::accumulate(f, stores_.means, light, 0);
         const gpu::Image stops = lighting::exposure(f, stores_.exposure, settings, surfaces, mean, 0.0F);

@@ -261,17 +261,12 @@ TEST(EffectsHost, TellsTheMemoryThatItAllocates) {
 
 // A new effect is to be recorded above, too.
 TEST(EffectsHost, KnowsEveryEffect) {
-    const std::set<std::string> recorded{"accumulate",     "ambient_occlusion",
-                                         "composite",      "contact",
-                                         "cube_map",       "denoise",
-                                         "depth_of_field", "direct",
-                                         "environment",    "exposure",
-                                         "gbuffer",        "light_mips",
-                                         "lobe",           "motion_blur",
-                                         "planar",         "import",
-                                         "probe",          "pyramid",
-                                         "rescale",        "shadow",
-                                         "temporal",       "tonemap"};
+    const std::set<std::string> recorded{"accumulate",  "ambient_occlusion", "composite",      "contact",
+                                         "cube_map",    "denoise",           "depth_of_field", "direct",
+                                         "environment", "exposure",          "gbuffer",        "light_mips",
+                                         "lobe",        "motion_blur",       "planar",         "import",
+                                         "probe",       "pyramid",           "rescale",        "reflected_images",
+                                         "shadow",      "temporal",          "tonemap"};
     for (const auto& entry : std::filesystem::directory_iterator(REFLET_EFFECTS)) {
         if (entry.is_directory()) {
             EXPECT_TRUE(recorded.contains(entry.path().filename().string())) << entry.path();

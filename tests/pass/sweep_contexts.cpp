@@ -94,6 +94,7 @@ const std::vector<Context>& contexts() {
         {"temporal.", {"temporal.enabled=true"}, "gloss", 4},
         {"temporal.enabled", {}, "gloss", 2},
         {"temporal.frames_in_motion", {"temporal.enabled=true"}, "gloss", 4, 0.1F},
+        {"temporal.reflections", {"temporal.enabled=true"}, "gloss", 4, 0.1F},
         {"tonemap.adaptation", {"tonemap.auto_exposure=on"}, "gloss", 2, 0.1F},
     };
     return all;

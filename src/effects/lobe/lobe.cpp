@@ -54,7 +54,8 @@ LobePlan planLobe(gpu::PassList& f, LobeStore* own, const LobeInputs& in, bool s
     plan.tiles = tilesOfLobe(f, own, plan.from, in);
     const bool varies = plan.tiles.meanRays > 0;
     const bool reflects = in.lobe == lobeSpecular;
-    plan.imageMotion = reflects && keepsHistory(own, in.denoise) ? noImageMotion(f, plan.from) : gpu::Image{};
+    const bool followed = keepsHistory(own, in.denoise) || in.followsImages;
+    plan.imageMotion = reflects && followed ? noImageMotion(f, plan.from) : gpu::Image{};
     // Rays that nothing reads between the passes need not be written.
     plan.atOnce = !separate && in.sources.empty() && in.others.empty() && s.reuse == 0 && !varies && !in.countHits;
     plan.sliced = !reflects && in.diffuse.method == DiffuseMethod::slices && in.screen.images != nullptr &&

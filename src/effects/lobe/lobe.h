@@ -27,6 +27,7 @@ struct LobeInputs {
     gpu::Image ambientOcclusion;         ///< of ambientOcclusion(); may be none
     gpu::History lit;                    ///< the view's lit image, for adaptive sampling; may be none
     bool randomTracing = false;          ///< a source may answer the same ray differently the next time
+    bool followsImages = false;          ///< LobeLight::imageMotion is wanted; the denoiser's history asks for it, too
     bool countSteps = false;             ///< count the depth samples of each ray
     bool countHits = false;              ///< LobeLight::hits is wanted
     size_t certainOthers = 0;            ///< how many of `others`, at their start, find the actual hit
