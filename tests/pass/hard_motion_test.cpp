@@ -171,6 +171,32 @@ TEST_P(HardMotion, AGlowingThingsImageLeavesNoTrail) {
     EXPECT_LT(error, isUpscaled() ? 1.0 : 0.045);
 }
 
+// Where it was at rest before, jitter had it in some frames and the wall in others, as if it were a thin bar.
+TEST_P(HardMotion, WhatStartsToMoveLeavesNoLine) {
+    Scene scene = sceneOf(lambertMaterial(vec3(0.1F)), builtin::patch({.right = {3, 0, 0}, .up = {0, 3, 0}}));
+    const int32_t node = builtin::addNode(scene, {1.5, 0, 0.6});
+    slide(scene, node, 1.5F, 0.6F);
+    Material glowing = lambertMaterial(vec3(0.7F));
+    glowing.emissive = vec3(8.0F);
+    builtin::place(scene, "ball", builtin::addMaterial(scene, glowing), builtin::sphere(0.3F, 24), at({1.5F, 0, 0.6F}));
+    scene.instances.back().node = node;
+    std::vector<View> path(16, before(0.15));
+    for (int i = 1; i <= 4; ++i) {
+        path.push_back(before(0.15 + 3.0 * step * double(i)));
+    }
+    const Settings settings = withScale(GetParam());
+    const Pictures moving = renderPath(scene, path, size, settings, {"final"}).back();
+    const Pictures still = render(scene, path.back(), size, settings, {"final"}, 32);
+    uint32_t line = 0;
+    for (uint32_t y = 0; y < size.y; ++y) {
+        for (uint32_t x = 58; x < 84; ++x) {  // where it was
+            line += moving.value("final", x, y) > still.value("final", x, y) + 0.1F ? 1 : 0;
+        }
+    }
+    RecordProperty("pixels", std::to_string(line));
+    EXPECT_EQ(line, 0U);
+}
+
 INSTANTIATE_TEST_SUITE_P(Scales, HardMotion, testing::Values("1", "0.5"), [](const auto& scale) {
     return std::string(scale.param == std::string("1") ? "full" : "half");
 });

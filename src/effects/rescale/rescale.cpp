@@ -16,10 +16,12 @@ struct Shader {
     const char* name;
 };
 
-constexpr std::array shaders{
-    Shader{VK_FORMAT_R16G16B16A16_SFLOAT, "rescale_light.comp"},
-    Shader{VK_FORMAT_R16G16_SFLOAT, "rescale_moments.comp"}, Shader{VK_FORMAT_R32_SFLOAT, "rescale_scalar.comp"},
-    Shader{VK_FORMAT_R32G32_SFLOAT, "rescale_pair.comp"}, Shader{VK_FORMAT_R32G32_UINT, "rescale_packed.comp"}};
+constexpr std::array shaders{Shader{VK_FORMAT_R16G16B16A16_SFLOAT, "rescale_light.comp"},
+                             Shader{VK_FORMAT_R16G16_SFLOAT, "rescale_moments.comp"},
+                             Shader{VK_FORMAT_R32_SFLOAT, "rescale_scalar.comp"},
+                             Shader{VK_FORMAT_R8_UNORM, "rescale_mark.comp"},
+                             Shader{VK_FORMAT_R32G32_SFLOAT, "rescale_pair.comp"},
+                             Shader{VK_FORMAT_R32G32_UINT, "rescale_packed.comp"}};
 
 // Of an image that has a texel for each block of pixels, and shows one pixel of it (blockPixelOffset).
 vec2 centreOf(uvec2 frame, uvec2 size) {

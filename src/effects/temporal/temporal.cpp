@@ -13,6 +13,7 @@ struct Histories {
     gpu::History deviations;
     gpu::History coverage;
     gpu::History seen;
+    gpu::History left;
     gpu::History changes;
     bool valid = false;
 };
@@ -24,9 +25,11 @@ Histories swapHistories(gpu::PassList& f, TemporalStore& own, uvec2 size, uvec2 
                 own.deviations.swap(f, VK_FORMAT_R16G16_SFLOAT, output),
                 {},
                 own.seen.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, size, gpu::Resample::nearest),
+                own.left.swap(f, VK_FORMAT_R8_UNORM, size, gpu::Resample::nearest),
                 own.changes.swap(f, VK_FORMAT_R16G16B16A16_SFLOAT, size, gpu::Resample::nearest),
                 false};
-    h.valid = h.mean.valid && h.seen.valid && h.changes.valid;
+    h.valid = h.mean.valid && h.seen.valid && h.left.valid && h.changes.valid;
+    f.clear(h.left.next);
     if (covers) {
         h.coverage = own.coverage.swap(f, VK_FORMAT_R32_SFLOAT, output);
         h.valid = h.valid && h.coverage.valid;
@@ -53,6 +56,8 @@ void bindSurfaces(gpu::PassList& f, gpu::ComputePass& pass, const Histories& h, 
         .read("baseColor", in.baseColor ? in.baseColor : f.placeholder(VK_FORMAT_A2B10G10R10_UNORM_PACK32));
     pass.read("previousSeen", h.seen.previous)
         .write("seen", h.seen.next)
+        .read("previousLeft", h.left.previous)
+        .write("left", h.left.next)
         .read("previousChanges", h.changes.previous)
         .write("changes", h.changes.next);
 }

@@ -14,6 +14,8 @@ layout(rgba16f) uniform readonly image2D previousMean;  // radiance, history len
 layout(rg16f) uniform readonly image2D previousDeviations;
 layout(rgba16f) uniform readonly image2D previousSeen;
 layout(rgba16f) uniform writeonly image2D seen;  // distance, own motion, 1: at rest
+layout(r8) uniform readonly image2D previousLeft;
+layout(r8) uniform writeonly image2D left;  // 1: something that was at rest here moves from here on
 layout(rgba16f) uniform readonly image2D previousChanges;
 layout(rgba16f) uniform writeonly image2D changes;
 layout(rgba16f) uniform writeonly image2D mean;
@@ -39,6 +41,7 @@ void resolve(ivec2 pixel, Row above, Row row, Row below) {
     now.variance = max((above.squares + row.squares + below.squares) / 9.0 - now.middle * now.middle, 0.0);
     now.moved = surface.moved * vec2(params.size);
     now.follows = surface.follows;
+    now.left = surface.left ? 1.0 : 0.0;
     Changed change = changedAt(pixel, steadyLight(above, row, below), surface);
     now.disturbed = change.disturbed;
     now.relit = change.relit;

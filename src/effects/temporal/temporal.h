@@ -5,15 +5,15 @@
 // foreground), reads the history there (Catmull-Rom, to stay sharp), clips it to the local distribution of this frame's
 // pixels (history clip), and blends in this frame with a weight of one over the history length.
 // What the last frame did not show where a surface was (it was hidden by what has left) starts anew: each pixel keeps
-// the distance and the own motion of what it showed. Where the light of a static surface, its radiance without the
-// texture, gets brighter or darker over frames, the history is scaled alike, so that its detail is kept; where it also
-// is uneven, or was, a shadow's edge has moved, and the pixel starts anew. The sky of a moving camera is filtered over
-// each pixel, without history. Frames may be smaller than the output (temporal upscaling): the
-// jitter then brings samples to all of the output's pixels in turn. At rest, a pixel's mean takes only samples that lie
-// in its own area, so that it converges to what a frame of the output's size converges to; until it has one, and in
-// motion, it takes those around it, weighted by a Gaussian of their distance, which also is their weight in the mean.
-// (Karis, High Quality Temporal Supersampling, SIGGRAPH 2014: jitter, clipping in YCoCg, tone-compressed;
-// Salvi, An Excursion in Temporal Supersampling, GDC 2016: limits from local mean and variance;
+// the distance and the own motion of what it showed, and what starts to move marks where it was. Where the light of a
+// static surface, its radiance without the texture, gets brighter or darker over frames, the history is scaled alike,
+// so that its detail is kept; where it also is uneven, or was, a shadow's edge has moved, and the pixel starts anew.
+// The sky of a moving camera is filtered over each pixel, without history. Frames may be smaller than the output
+// (temporal upscaling): the jitter then brings samples to all of the output's pixels in turn. At rest, a pixel's mean
+// takes only samples that lie in its own area, so that it converges to what a frame of the output's size converges to;
+// until it has one, and in motion, it takes those around it, weighted by a Gaussian of their distance, which also is
+// their weight in the mean. (Karis, High Quality Temporal Supersampling, SIGGRAPH 2014: jitter, clipping in YCoCg,
+// tone-compressed; Salvi, An Excursion in Temporal Supersampling, GDC 2016: limits from local mean and variance;
 // Jimenez, Filmic SMAA: Sharp Morphological and Temporal Antialiasing, SIGGRAPH 2016: Catmull-Rom without its corners;
 // Yang, Liu and Salvi, A Survey of Temporal Antialiasing Techniques, Eurographics 2020: upsampling by sample distance.)
 #ifndef REFLET_EFFECTS_TEMPORAL_H
@@ -126,6 +126,7 @@ struct TemporalStore {
     gpu::HistoryImage coverage{"temporal_coverage"};
     gpu::HistoryImage changes{"temporal_changes"};
     gpu::HistoryImage seen{"temporal_seen"};
+    gpu::HistoryImage left{"temporal_left"};
 };
 
 TemporalImages temporal(gpu::PassList& f, TemporalStore& own, const TemporalInputs& in,

@@ -12,9 +12,11 @@ layout(rgba16f) uniform writeonly image2D around;  // mean, tone-compressed; mot
 layout(rgba16f) uniform writeonly image2D spread;  // standard deviation; motion in y
 layout(rgba16f) uniform readonly image2D previousSeen;
 layout(rgba16f) uniform writeonly image2D seen;  // distance, own motion, 1: at rest
+layout(r8) uniform readonly image2D previousLeft;
+layout(r8) uniform writeonly image2D left;  // 1: something that was at rest here moves from here on
 layout(rgba16f) uniform readonly image2D previousChanges;
 layout(rgba16f) uniform writeonly image2D changes;
-layout(rgba16f) uniform writeonly image2D changed;  // disturbed, relit (-1: the last frame showed another surface), reactive
+layout(rgba16f) uniform writeonly image2D changed;  // disturbed, relit (-1: the last frame showed another surface), reactive, left
 #if HAS_COVERAGE
 uniform sampler2D coverage;
 layout(rg16f) uniform writeonly image2D coveredAround;  // mean, standard deviation
@@ -27,7 +29,7 @@ void resolve(ivec2 pixel, Row above, Row row, Row below) {
     vec3 variance = max((above.squares + row.squares + below.squares) / 9.0 - middle * middle, 0.0);
     Changed change = changedAt(pixel, steadyLight(above, row, below), now);
     float relit = now.follows ? change.relit : -1.0;
-    imageStore(changed, pixel, roundToHalf(vec4(change.disturbed, relit, reactiveAt(pixel), 0.0)));
+    imageStore(changed, pixel, roundToHalf(vec4(change.disturbed, relit, reactiveAt(pixel), now.left ? 1.0 : 0.0)));
     imageStore(around, pixel, roundToHalf(vec4(middle, now.moved.x)));
     imageStore(spread, pixel, roundToHalf(vec4(sqrt(variance), now.moved.y)));
 #if HAS_COVERAGE

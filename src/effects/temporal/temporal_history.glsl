@@ -74,6 +74,7 @@ struct Shown {
     float disturbed;  // as in Changed
     float relit;      // as in Changed
     float reactive;   // share of the history that is given up
+    float left;       // 1: as Seen.left
 #if HAS_COVERAGE
     float covered;
     float coveredMiddle;
@@ -101,7 +102,8 @@ void accumulate(ivec2 pixel, Shown now) {
     differed *= vec2(stretch * stretch, stretch);
     float stale = ramp(staleShare(differed.y, differed.x, now.middle.x), pixelStaleLimits);
     float disturbed = max(now.disturbed, 0.0);
-    float trust = rested * still * (1.0 - stale) * (1.0 - disturbed);
+    float right = rested * still * (1.0 - stale) * (1.0 - disturbed);
+    float trust = right * (1.0 - now.left);
     float variance = trust * differed.x;
 
     vec3 held = toneCompress(before.rgb);
@@ -122,6 +124,10 @@ void accumulate(ivec2 pixel, Shown now) {
     // At rest, only a sample of the pixel's own area can tell that it changed: neighbours may have missed a thin bar.
     share = mix(share, 1.0, trust * (1.0 - now.inside));
     share = now.disturbed >= 0.0 && params.settings.clip > 0.0 ? share : 1.0;
+    // Of what has left nothing may be kept; where it was not, all is as it would be without it.
+    share = share < 1.0 ? share * (1.0 - now.left) : 1.0;
+    trust = share < 1.0 ? trust : right;
+    variance = trust * differed.x;
     vec3 clipped = mix(now.middle, held, share);
     vec3 kept = share < 1.0 ? toneExpand(clipped) : before.rgb;
 #if HAS_COVERAGE

@@ -1,6 +1,6 @@
 // 3x3 neighbourhoods of this frame's pixels, a row at a time, so that pixels above one another share their loads.
-// The includer declares params as TemporalParams, the images radiance, depth, motion, previousSeen and seen, and with
-// HAS_COVERAGE coverage.
+// The includer declares params as TemporalParams, the images radiance, depth, motion, previousSeen, seen, previousLeft
+// and left, and with HAS_COVERAGE coverage.
 #ifndef REFLET_TEMPORAL_ROWS_GLSL
 #define REFLET_TEMPORAL_ROWS_GLSL
 
@@ -133,6 +133,7 @@ vec2 motionAt(ivec2 pixel, float nearest) {
 struct Seen {
     vec2 moved;    // uv
     bool follows;  // the last frame showed the same surface where it was
+    bool left;     // at rest, where something else has been until one frame ago, which may be in the history
     bool sky;      // the environment, which does not change
 };
 
@@ -158,6 +159,20 @@ bool disoccluded(ivec2 at, vec4 of, float expected, float steep) {
     return otherMotion || (!rest && abs(before.x - expected) > sameDistance + steep);
 }
 
+// Tells the next frame where something was that has started to move: what it hid there has been at rest like itself, so
+// that nothing else tells them apart.
+void leavePlace(ivec2 was, vec4 of) {
+    bool inside = all(greaterThanEqual(was, ivec2(0))) && all(lessThan(was, ivec2(params.size)));
+    bool moves = of.w == 0.0 && length(of.yz) > slowest;
+    if (!moves || !inside || imageLoad(previousSeen, was).w <= 0.0) {
+        return;
+    }
+    for (int i = 0; i < 9; ++i) {
+        ivec2 at = clamp(was + ivec2(i % 3, i / 3) - 1, ivec2(0), ivec2(params.size) - 1);
+        imageStore(left, at, vec4(1.0));
+    }
+}
+
 Seen seenAt(ivec2 pixel, Row above, Row row, Row below) {
     float nearest = max(max(above.nearest, below.nearest), row.nearest);
     ivec2 nearestPixel = nearest > 0.0 ? nearestAround(above, row, below) : pixel;
@@ -174,7 +189,9 @@ Seen seenAt(ivec2 pixel, Row above, Row row, Row below) {
     now.sky = nearest <= 0.0 && params.skyIsFixed != 0u;
     ivec2 before = rests > 0.0 ? pixel : ivec2(floor(from + 0.5));
     now.follows = notInlined(params.hasPrevious, gl_GlobalInvocationID.x) != 0u && !disoccluded(before, of, distanceOf(was.z / was.w), steep);
+    now.left = rests > 0.0 && imageLoad(previousLeft, pixel).r > 0.0;
     imageStore(seen, pixel, of);
+    leavePlace(before, of);
     return now;
 }
 

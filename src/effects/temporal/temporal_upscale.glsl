@@ -58,11 +58,12 @@ void main() {
     Shown now;
     now.own = clampToHalf(imageLoad(radiance, nearest).rgb);
     now.blurred = sum / total;
-    vec3 change = imageLoad(changed, nearest).rgb;
+    vec4 change = imageLoad(changed, nearest);
     now.follows = change.y >= 0.0;
     now.disturbed = change.x;
     now.relit = change.y;
     now.reactive = change.z;
+    now.left = change.w;
     now.inside = all(lessThanEqual(away, vec2(0.5))) ? 1.0 : 0.0;
     now.near = nearness(away) + 1e-3;
     now.middle = middle.rgb;
