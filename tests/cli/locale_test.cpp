@@ -60,22 +60,25 @@ TEST_P(Locale, ChangesNoByteOfWhatIsSaidOrWritten) {
         {"info", "scene.gltf"},
         {"info", "builtin:cubes"},
         {"reference", "builtin:cubes", "--view-file", "v.json", "--fov", "41.5", "--size", "16x9", "--spp", "2",
-         "--bounces", "1", "--seed", "1", "--save-view", "w.json", "--quiet", "-o", "a.exr"},
+         "--bounces", "1", "--seed", "1", "--save-view", "w.json", "--quiet", "-o", "a_0000.exr"},
         {"reference", "builtin:cubes", "--view-file", "w.json", "--size", "16x9", "--spp", "4", "--bounces", "1",
-         "--seed", "2", "--quiet", "-o", "b.exr"},
-        {"compare", "a.exr", "b.exr", "--json"},
-        {"compare", "a.exr", "b.exr"}};
+         "--seed", "2", "--quiet", "-o", "b_0000.exr"},
+        {"compare", "a_0000.exr", "b_0000.exr", "--json"},
+        {"compare", "a_0000.exr", "b_0000.exr"},
+        {"compare", "a_####.exr", "b_####.exr", "--plot", "p.svg"}};
     const std::vector<std::string> plain = said(commands, {{"LC_ALL", "C"}}, "w.json");
-    const std::string picture = read("a.exr");
+    const std::string picture = read("a_0000.exr");
+    const std::string plot = read("p.svg");
     EXPECT_NE(plain.back().find("1.25"), std::string::npos) << plain.back();
-    for (const char* file : {"a.exr", "b.exr", "w.json"}) {
+    for (const char* file : {"a_0000.exr", "b_0000.exr", "p.svg", "w.json"}) {
         fs::remove(path(file));
     }
     const std::vector<std::string> local = said(commands, locale, "w.json");
     for (size_t i = 0; i < plain.size(); ++i) {
         EXPECT_EQ(local[i], plain[i]) << "command " << i;
     }
-    EXPECT_TRUE(read("a.exr") == picture);
+    EXPECT_TRUE(read("a_0000.exr") == picture);
+    EXPECT_EQ(read("p.svg"), plot);
 }
 
 INSTANTIATE_TEST_SUITE_P(OfComma, Locale, testing::Values("de_DE", "tr_TR"),
