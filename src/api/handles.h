@@ -137,11 +137,11 @@ struct Described {
 }  // namespace reflet::api
 
 struct RefletView_T {
-    RefletView_T(RefletContext_T& context, uint32_t framesInFlight, bool timesPasses)
+    RefletView_T(RefletContext_T& context, uint32_t framesInFlight, bool timed)
         : owner(context),
           memory(std::make_shared<VkDeviceSize>(0)),
-          recorder(*context.gpu, framesInFlight, timesPasses),
-          timesPasses(timesPasses) {}
+          recorder(*context.gpu, framesInFlight, timed),
+          timesPasses(timed) {}
 
     std::shared_ptr<RefletContext_T> keeps;  ///< the owner, unless this is a view of a call's own
     RefletContext_T& owner;

@@ -5,6 +5,7 @@
 #include "base/home.h"
 #include "base/progress.h"
 #include "effects/lobe/rays.h"
+#include "job/scene_options.h"
 #include "renderer/shaders.h"
 
 #include <CLI/CLI.hpp>

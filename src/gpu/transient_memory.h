@@ -57,7 +57,7 @@ struct HeldImage {
 
     std::weak_ptr<HeldImage> other;  ///< of the same history
 
-    HeldImage(Context& of, std::string name) : context(of), name(std::move(name)) {}
+    HeldImage(Context& of, std::string called) : context(of), name(std::move(called)) {}
     ~HeldImage();
     HeldImage(const HeldImage&) = delete;
     HeldImage& operator=(const HeldImage&) = delete;
