@@ -67,7 +67,9 @@ vec3 lampIrradiance(LampParams lamp, vec3 p, out vec3 toLamp) {
 
 // The part of the surface that the lamp lights.
 Surface surfaceFor(LampParams lamp, Surface s) {
-    s.compensation = anyEmitters != 0u && lamp.type == lampEmitter ? vec3(0.0) : s.compensation;
+    bool showsItself = anyEmitters != 0u && lamp.type == lampEmitter;
+    bool betweenMirrors = anyReflected != 0u && lamp.type == lampReflected && s.roughness <= smoothestMirror;
+    s.compensation = showsItself || betweenMirrors ? vec3(0.0) : s.compensation;
     return s;
 }
 

@@ -168,7 +168,8 @@ TEST(TraceScene, NoSeamShowsInAMirrorWhereRayTracingTakesOverFromTheScreen) {
     }
     builtin::place(scene, "wall", builtin::addMaterial(scene, lambertMaterial(vec3(1.0F))), std::move(wall));
     View view = viewFrom({0, 1.5F, 5}, {0, 0.4F, 0});
-    view.sun = builtin::sun(glm::normalize(vec3(0.3F, -0.4F, -1.0F)), vec3(3.0F));
+    // Along the floor, which so casts no caustic onto the wall: rays through the scene know no light of two bounces.
+    view.sun = builtin::sun(glm::normalize(vec3(0.3F, 0.0F, -1.0F)), vec3(3.0F));
     for (const char* light : {"direct", "lit"}) {
         const Pictures p = render(scene, view, size,
                                   settingsOf({"trace_scene.enabled=on", std::string("trace_screen.light=") + light,

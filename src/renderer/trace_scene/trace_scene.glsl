@@ -87,8 +87,9 @@ const float shareOfLobe = 0.1;
 struct SceneRay {
     vec3 origin;
     vec3 direction;
-    float width;    // of the footprint at the origin [m]
-    float spread;   // growth of the footprint per metre
+    float width;      // of the footprint at the origin [m]
+    float spread;     // growth of the footprint per metre
+    float roughness;  // of the lobe that scattered it; 1: diffuse
 };
 
 // A point's projection on screen and the surface visible there.
@@ -183,7 +184,8 @@ vec3 scatter(LitPoint at, bool diffuseOnly, inout uint random, out SceneRay next
         weight = at.surface.diffuse / (1.0 - chance);
     }
     vec3 towards = frame * l;
-    next = SceneRay(at.position + at.geometricNormal * at.clearance, towards, 0.0, shareOfLobe * lobeWidth);
+    next = SceneRay(at.position + at.geometricNormal * at.clearance, towards, 0.0, shareOfLobe * lobeWidth,
+                    diffuse ? 1.0 : at.surface.roughness);
     return l.z > 0.0 && dot(towards, at.geometricNormal) > 0.0 ? weight : vec3(0.0);
 }
 
@@ -228,6 +230,21 @@ vec3 lightAtEnd(LitPoint at, CachedLight known) {
     return at.surface.diffuse * known.radiance + at.surface.specular * mirrored;
 }
 
+const float causticBlur = 0.3;
+
+// The surface as sun and lamps light it for a ray that a lobe of this roughness has scattered. Rough lobes meet the
+// highlights of smooth surfaces so rarely that each would be a firefly. So these are at least `causticBlur` times as
+// rough as the lobe: caustics are blurred, their light is kept (Kaplanyan and Dachsbacher 2013, "Path Space
+// Regularization Framework").
+Surface litForLobe(Surface s, float roughness) {
+    if (anyReflected != 0u && s.roughness <= smoothestMirror && roughness > smoothestMirror) {
+        s.f0 = vec3(0.0);  // reflected suns bring what mirrors show of the sun to other surfaces
+        s.f90 = 0.0;
+    }
+    s.roughness = max(s.roughness, causticBlur * roughness);
+    return s;
+}
+
 // Radiance along the ray from its hit. highlighted: of the ray. hitDistance: metres; negative: miss. told: gets the cells
 // that the path tells what it finds.
 vec3 followPath(SceneRay ray, bool highlighted, inout uint random, inout ToldCells told, out float hitDistance) {
@@ -254,10 +271,7 @@ vec3 followPath(SceneRay ray, bool highlighted, inout uint random, inout ToldCel
                                surfaceOf(found, -ray.direction));
         float sunVisible;
         LitPoint lit = at;
-        if (anyReflected != 0u && diffuse && at.surface.roughness <= smoothestMirror) {
-            lit.surface.f0 = vec3(0.0);  // reflected suns bring what a mirror shows of the sun to diffuse surfaces
-            lit.surface.f90 = 0.0;
-        }
+        lit.surface = litForLobe(at.surface, ray.roughness);
         radiance += throughput * (emitted - byLamps + sunAndLamps(lit, random, sunVisible));
         CachedLight known = cachedLight(at, random);
         if (endsHere(bounce, known, random)) {
@@ -299,7 +313,8 @@ SceneRay rayOfPixel(ivec3 slot, Ray ray) {
     float lobeWidth = lobe == 0u ? 1.0 : ggxConeTangent(roughness * roughness);
     float pixelWidth = params.own.pixelAngle * (params.own.eye.w > 0.0 ? away : 1.0);
     return SceneRay(p + n * clearanceOfPixel(p, away, params.own.depthToDistance, pixelWidth), ray.direction, pixelWidth,
-                    params.own.pixelAngle * params.own.eye.w + shareOfLobe * lobeWidth);
+                    params.own.pixelAngle * params.own.eye.w + shareOfLobe * lobeWidth,
+                    lobe == lobeDiffuse ? 1.0 : roughness);
 }
 
 // Whether the ray is within the ray budget, chosen by blue noise.
