@@ -47,7 +47,7 @@ float radiusAt(float d, float roughness, float hit, float noise) {
         return min(params.radius, shareOfHarmonicWay / max(hit, 1e-6)) * noise;
     }
     float away = depthToViewDistance(d, params.view.depthToDistance);
-    float pixelWidth = params.gridAngle * (params.view.eye.w > 0.0 ? away : 1.0);
+    float pixelWidth = params.gridAngle * (params.view.eye.w > 0.0 ? away + hit : 1.0);
     return min(params.radius, shareOfWay * ggxConeTangent(roughness * roughness) * hit / pixelWidth) * noise;
 }
 
