@@ -119,18 +119,6 @@ std::string stillNote(const RenderOptions& options, const Settings& settings) {
                        stillLimits(options));
 }
 
-// Glass refracts what the screen shows; without it, what is behind is noise and frosted glass shows the environment
-// alone.
-void refractByScreen(const RenderOptions& asked, const Scene& scene, Settings& settings) {
-    const bool transmits =
-        std::ranges::any_of(scene.materials, [](const Material& m) { return m.transmission.factor > 0.0F; });
-    const bool chosen = std::ranges::any_of(
-        asked.scene.set, [](const std::string& one) { return one.starts_with("trace_screen.enabled="); });
-    if (transmits && !chosen && asked.scene.preset.empty() && asked.scene.settingsFiles.empty()) {
-        settings.traceScreen.enabled = 1;
-    }
-}
-
 // Renders what the options ask for. Returns the number of files or frames that were written.
 uint32_t renderJob(const RenderJob& job, bool sequence, bool still, std::chrono::steady_clock::time_point start) {
     if (sequence) {
@@ -161,9 +149,8 @@ std::vector<std::string> writtenNames(const RenderOptions& options, const Films&
 
 void render(const RenderCommand& command) {
     const auto start = std::chrono::steady_clock::now();
-    const RenderOptions& asked = command.options;
-    const uvec2 size = parseSize(asked.scene.size);
-    RenderOptions options = asked;
+    RenderOptions options = command.options;
+    const uvec2 size = parseSize(options.scene.size);
     const Films films(options.outputs, size.x, size.y);
     const bool still = isStill(options);
     if (still && options.scene.preset.empty()) {
@@ -175,9 +162,6 @@ void render(const RenderCommand& command) {
     checkOutputs(options, films);
     const bool sequence = isSequence(options.outputs, options.sequence, options.frames);
     const Scene scene = loadScene(options.scene);
-    if (still) {
-        refractByScreen(asked, scene, settings);
-    }
     options.frames = still ? 0 : framesFor(options, settings, scene);
     const View view = loadView(options.scene, scene);
 

@@ -16,10 +16,6 @@ namespace {
 // edges as hard as in a mirror. Prefiltered sources have no such edges.
 constexpr float coneShareOnScreen = 0.1F;
 
-bool marchesPyramid(const LightingSettings& settings) {
-    return settings.traceScreen.enabled != 0 && settings.traceScreen.method == TraceMethod::hiz;
-}
-
 // Whether marching the same ray again finds the same.
 bool marchesExactly(const TraceScreenSettings& settings) {
     return settings.method == TraceMethod::hiz || settings.method == TraceMethod::exhaustive;
@@ -198,6 +194,10 @@ ScreenImages screenOf(gpu::PassList& f, const ViewContext& in, const LightingSet
             .light = direct,
             .lit = lit,
             .lightMips = {}};
+}
+
+bool marchesPyramid(const LightingSettings& settings) {
+    return settings.traceScreen.enabled != 0 && settings.traceScreen.method == TraceMethod::hiz;
 }
 
 bool readsScreenLight(const LightingSettings& settings, const RaySources& sources) {

@@ -26,6 +26,8 @@ struct RaySources {
 ScreenImages screenOf(gpu::PassList& f, const ViewContext& in, const LightingSettings& settings, Surfaces& surfaces,
                       gpu::Image direct, const gpu::History& lit);
 
+/// Whether rays march through Surfaces::pyramid.
+bool marchesPyramid(const LightingSettings& settings);
 /// Whether any rays read ScreenImages::light.
 bool readsScreenLight(const LightingSettings& settings, const RaySources& sources);
 

@@ -177,19 +177,6 @@ TEST_F(Render, APictureWithoutAPresetIsAStill) {
 
 // Over 5 s: glass has many shaders; without rays through the scene and diffuse ones it has fewer. Other settings change
 // nothing about it; its own does.
-TEST_F(Render, AStillOfGlassRefractsByTheScreen) {
-    const auto traces = [&](const char* setting) {
-        EXPECT_EQ(run({"render", "builtin:glass", "--size", "16x9", "--seconds", "0.5", "--timings", "t.json", "--set",
-                       "trace_scene.enabled=false", "--set", "diffuse.rays=0", "--set", "shadow.resolution=256",
-                       "--set", setting, "-o", "a.png"})
-                      .status,
-                  0);
-        return parseJson(read("t.json")).at("passes").contains("specular.trace_screen");
-    };
-    EXPECT_TRUE(traces("tonemap.exposure=1"));
-    EXPECT_FALSE(traces("trace_screen.enabled=false"));
-}
-
 TEST_F(Render, AnEffortIsForAStill) {
     const auto refusedWith = [&](const Arguments& more) {
         Arguments all{"render", cubes, "--size", "32x18", "-o", "a.png"};

@@ -164,11 +164,11 @@ TEST(Glass, ASheetTintsOnceAndNearerSheetsShowFartherOnes) {
     add(scene, glow({1, 1, 1}), wall({9, 9}), at({0, 0, -3}));
     add(scene, glass(0.0F, 1.0F, {0.5F, 1.0F, 1.0F}), wall({9, 9}), at({0, 0, -1}));
     add(scene, glass(0.0F, 1.0F, {1.0F, 0.25F, 1.0F}), wall({9, 9}));
-    const auto middle = [&](const char* layers) {
-        return seen(scene, darkView(), {layers}).color("final", size.x / 2, size.y / 2);
+    const auto middle = [&](const std::vector<std::string>& more) {
+        return seen(scene, darkView(), more).color("final", size.x / 2, size.y / 2);
     };
-    EXPECT_LT(glm::distance(middle("transmission.layers=2"), vec3(0.5F, 0.25F, 1.0F)), 0.01F);
-    EXPECT_LT(glm::distance(middle("transmission.layers=1"), vec3(1.0F, 0.25F, 1.0F)), 0.01F) << "the nearest one";
+    EXPECT_LT(glm::distance(middle({"transmission.layers=2"}), vec3(0.5F, 0.25F, 1.0F)), 0.01F);
+    EXPECT_LT(glm::distance(middle({"transmission.layers=1"}), vec3(1.0F, 0.25F, 1.0F)), 0.01F) << "the nearest one";
 }
 
 TEST(Glass, BlendedSurfacesAreBehindOrBeforeIt) {
@@ -320,6 +320,13 @@ TEST(Glass, BallsAndAPaneAreThoseOfTheReference) {
     };
     const double drawn = error({"diffuse.rays=16", "specular.rays=4"});
     const double opaque = error({"diffuse.rays=16", "specular.rays=4", "transmission.layers=0"});
+    const Pictures scattered = renderMean(
+        scene, view, size,
+        settingsOf({"trace_screen.enabled=off", "trace_scene.enabled=on", "diffuse.rays=1", "specular.rays=1"}),
+        {"final"}, 32);
+    const double random = compareImages(scattered.images.at("final"), truth, {}).difference.relativeMse;
+    EXPECT_LT(random, 0.015) << "rays for the scene alone, which frosted glass scatters";
+    RecordProperty("random", std::to_string(random));
     RecordProperty("drawn", std::to_string(drawn));
     RecordProperty("opaque", std::to_string(opaque));
     EXPECT_LT(drawn, 0.015);

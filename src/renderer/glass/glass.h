@@ -29,10 +29,14 @@ struct GlassDrawParams {
     uint medium;  // kind of the volume that the camera is in
 };
 
+const uint glassClear = 0;        // no surface is rough
+const uint glassPrefiltered = 1;  // rays of rough ones read prefiltered light (Ray.spread)
+const uint glassScatters = 2;     // they have random directions
+
 struct RefractParams {
     ViewParams view;
     uint exitSteps;
-    uint frosted;    // 0: no surface is rough
+    uint frosted;    // glassClear, glassPrefiltered, glassScatters
     float outerIor;  // around the volume that the camera is in
 };
 
@@ -82,8 +86,14 @@ struct Refraction {
     bool fromInside = false;  ///< the camera is in a medium
 };
 
-RefractedRays refractRays(gpu::PassList& f, const GBuffer& g, const GlassSurfaces& glass, gpu::Image ggxTable,
-                          const Refraction& kinds, const RefractParams& params);
+/// Of the view.
+struct RefractionTables {
+    gpu::Image ggxTable;
+    gpu::BufferView blueNoise;
+};
+
+RefractedRays refractRays(gpu::PassList& f, const GBuffer& g, const GlassSurfaces& glass,
+                          const RefractionTables& tables, const Refraction& kinds, const RefractParams& params);
 
 /// over = what the layer itself sends, where there is one, plus what it transmits (none: nothing), over `behind` as far
 /// as the layer covers it. All RGBA16F. The alpha of `behind` is kept.

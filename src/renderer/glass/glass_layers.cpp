@@ -40,20 +40,25 @@ gpu::Image glassOver(gpu::PassList& f, const GBuffer& g, gpu::Image layer, const
     return over;
 }
 
+uint32_t frostedGlass(const DrawList& draws, const Settings& settings) {
+    return !draws.frosted ? glassClear : scattersInGlass(settings) ? glassScatters : glassPrefiltered;
+}
+
 // seen: with the layer's G-buffer, and the light behind it on screen. nearerDepth: of the layer in front, if any.
 LightThroughGlass addLayer(gpu::PassList& f, const ViewInputs& in, const Settings& settings, TracedView seen,
                            gpu::Image nearerDepth, const LightLayers& behind) {
     const bool layers = bool(behind.indirectDiffuse);
     const GBuffer& g = seen.images.g;
     const LightLayers lit = lightLayer(f, in, settings, seen, layers);
-    if (in.draws.frosted) {
+    const uint32_t frosted = frostedGlass(in.draws, settings);
+    if (frosted == glassPrefiltered) {
         lighting::prefilterOwnLight(f, seen.screen);
     }
     const GlassSurfaces made = glassSurfaces(f, in.draws, in.view, g, in.medium);
-    RefractedRays refracted = refractRays(
-        f, g, made, in.ggxTable, {in.draws.dispersive, in.medium.has_value()},
-        {in.view, settings.transmission.exitSteps, in.draws.frosted ? 1U : 0U, in.medium ? in.medium->outerIor : 1.0F});
-    answerRays(f, refracted.rays, in, settings, seen);
+    RefractedRays refracted =
+        refractRays(f, g, made, {in.ggxTable, in.blueNoise}, {in.draws.dispersive, in.medium.has_value()},
+                    {in.view, settings.transmission.exitSteps, frosted, in.medium ? in.medium->outerIor : 1.0F});
+    answerRays(f, refracted.rays, in, refractedSettings(settings), seen);
     LightLayers out = behind;
     out.lit = glassOver(f, g, lit.lit, &refracted, behind.lit);
     if (layers) {
@@ -98,6 +103,16 @@ void followGlass(gpu::PassList& f, const NearestGlass& nearest, lighting::Light&
     light.followedMotion = motion;
 }
 
+// With a depth pyramid if refracted rays march through one.
+ScreenImages screenBehind(gpu::PassList& f, const TracedView& seen, const Settings& refracted) {
+    ScreenImages screen = seen.screen;
+    if (!screen.pyramid && lighting::marchesPyramid(refracted)) {
+        lighting::Surfaces behind = seen.images;
+        screen.pyramid = lighting::depthPyramid(f, behind);
+    }
+    return screen;
+}
+
 }  // namespace
 
 bool showsGlass(const ViewInputs& in, const Settings& settings) {
@@ -115,9 +130,10 @@ LightThroughGlass throughGlass(gpu::PassList& f, const ViewInputs& in, const Set
     const auto scope = f.scope("glass");
     const Settings ofLayer = glassSettings(settings, in.draws);
     const std::vector<GBuffer> peeled = peelGlass(f, in, ofLayer, seen.images.g.depth);
+    const ScreenImages screen = screenBehind(f, seen, refractedSettings(ofLayer));
     for (size_t i = peeled.size(); i-- > 0;) {
         const auto layerScope = f.scope(std::to_string(i));
-        TracedView layer{seen.images, seen.screen, {}};
+        TracedView layer{seen.images, screen, {}};
         layer.images.g = peeled[i];
         layer.images.ambientOcclusion = {};
         layer.screen.light = sum.light.lit;

@@ -11,6 +11,7 @@
 #include "shaders/not_inlined.glsl"
 #include "shaders/projection.glsl"
 #include "shaders/refraction.glsl"
+#include "shaders/sampling.glsl"
 
 layout(constant_id = 0) const uint disperses = 0u;   // 1: some materials do
 layout(constant_id = 1) const uint fromInside = 0u;  // 1: the camera is in a medium
@@ -33,7 +34,11 @@ layout(rgba16f) uniform writeonly image2D share;
 layout(rg32ui) uniform writeonly uimage2DArray direction;
 layout(rgba16f) uniform writeonly image2DArray answer;
 layout(rgba8) uniform writeonly image2DArray source;
+layout(scalar) readonly buffer BlueNoiseBlock { uint texels[]; } blueNoise;
 #include "effects/lobe/rays_append.glsl"
+
+uint loadBlueNoise(uint texel) { return blueNoise.texels[texel]; }
+#include "shaders/blue_noise.glsl"
 
 // A ray at a boundary of the glass.
 struct Crossing {
@@ -140,10 +145,20 @@ Refracted leaveMedium(Pane pane, vec3 geometric, float ratio, vec3 light) {
     return r;
 }
 
+// A random direction of the lobe that prefiltered light has: that of a mirror of this roughness, seen straight on.
+vec3 scattered(ivec2 pixel, int layer, vec3 along, float roughness) {
+    vec2 u = blueNoisePoint(uvec2(pixel), uint(layer) + hashPcg(params.view.seed + 17u), params.view.frame, 0u, 1u);
+    vec3 h = sampleGgxVisible(u, vec3(0.0, 0.0, 1.0), roughness * roughness);
+    return basisAround(along) * (2.0 * h.z * h - vec3(0.0, 0.0, 1.0));
+}
+
 void emitRay(Pane pane, int layer, Refracted r, float ior) {
     float spread = pane.passes.a != 0.0 ? refractedRoughness(pane.roughness, ior) : pane.roughness;
-    bool frosted = notInlined(params.frosted, gl_GlobalInvocationID.x) != 0u && spread > 0.05;
-    Ray ray = Ray(r.direction, 1.0, 1.0, frosted ? spread : 0.0, false);
+    uint frosted = spread > 0.05 ? notInlined(params.frosted, gl_GlobalInvocationID.x) : glassClear;
+    if (frosted == glassScatters) {
+        r.direction = scattered(pane.pixel, layer, r.direction, spread);
+    }
+    Ray ray = Ray(r.direction, 1.0, 1.0, frosted == glassPrefiltered ? spread : 0.0, false);
     imageStore(origins, ivec3(pane.pixel, layer), vec4(r.exit.point, r.exit.path));
     imageStore(direction, ivec3(pane.pixel, layer), uvec4(packRay(ray), 0u, 0u));
     appendRay(WaitingRay(ivec3(pane.pixel, layer), 1.0, 0.0, false, vec3(0.0)));
