@@ -59,6 +59,20 @@ def row(run):
             lag(run, ""), lag(run, "indirect_"), judged(f"{flicker:.2f}", flicker <= FLICKER)]
 
 
+# How many of the cases that have each measure meet its target.
+def summary(runs):
+    lines = ["| preset | ratio | ghost | lag | flicker |", "|---|--:|--:|--:|--:|"]
+    for preset in PRESETS:
+        rows = [row(run) for run in runs if run["variant"] == preset]
+        counts = []
+        for name in ("ratio", "after 8", "lag, frames", "flicker"):
+            values = [r[COLUMNS.index(name)] for r in rows]
+            values = [value for value in values if value != "–"]
+            counts.append(f"{sum(not value.startswith('*') for value in values)} of {len(values)}")
+        lines.append(f"| `{preset}` | " + " | ".join(counts) + " |")
+    return "\n".join(lines)
+
+
 def table(runs):
     lines = ["| " + " | ".join(COLUMNS) + " |", "|---" + "|--:" * (len(COLUMNS) - 1) + "|"]
     return "\n".join(lines + ["| " + " | ".join(row(run)) + " |" for run in runs])
@@ -72,6 +86,7 @@ def main():
     with open("docs/motion.md", "w", encoding="utf-8") as page:
         page.write(HEAD)
         page.write(f"\nMeasured with reflet {first['reflet']} on {first['device']}, {first['size'][0]}x{first['size'][1]} pixels.\n")
+        page.write(f"\nCases that meet their target:\n\n{summary(runs)}\n")
         for preset in PRESETS:
             own = sorted((run for run in runs if run["variant"] == preset), key=lambda run: run["case"])
             if own:
