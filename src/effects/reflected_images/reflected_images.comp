@@ -103,7 +103,12 @@ ReflectedImage nearestImage(Shown shown, ReflectedImage image, float reflectance
 // From the surface to the image: shares of reflected light, and roughness, as rough surfaces show no image.
 const vec2 shareRange = vec2(0.35, 0.65);
 const vec2 roughnessRange = vec2(roughestImage, 0.2);
-const float own = 0.25;  // pixels: of a surface that moves itself
+// From how many pixels on a surface moves itself, and per pixel of all its motion, as that is stored as halfs. Few, as what
+// a turning mirror shows moves near its axis, too.
+const vec2 own = vec2(0.03, 0.001);
+// Motion of the image in a surface that moves itself: how it turns is not known, so that nothing of the last frame stands
+// for it.
+const vec2 outside = vec2(4.0);
 
 // Where something at rest was in the last frame.
 vec2 uvBefore(vec2 uv, float d) {
@@ -126,8 +131,13 @@ void showImage(ivec2 pixel, float d, vec3 p, vec3 n, float nv, float reflectance
     float shows = polish * smoothstep(shareRange.x, shareRange.y, image.share);
     vec2 uv = pixelToUv(pixel, params.view.pixel);
     if (moves != 0u) {
-        vec2 moved = texelFetch(motion, pixel, 0).rg - (uv - uvBefore(uv, d));
-        shows = shows >= 0.5 && length(moved * params.view.size) < own ? 1.0 : 0.0;
+        vec2 way = texelFetch(motion, pixel, 0).rg;
+        vec2 itself = way - (uv - uvBefore(uv, d));
+        shows = shows < 0.5 ? 0.0 : 1.0;
+        if (shows > 0.0 && length(itself * params.view.size) >= own.x + own.y * length(way * params.view.size)) {
+            imageStore(shownMotion, pixel, vec4(outside, 0.0, 0.0));
+            return;
+        }
     }
     if (shows <= 0.0) {
         return;
