@@ -88,9 +88,10 @@ Light accumulate(gpu::PassList& f, AccumulateHistory& own, const Light& light, u
 Light antialias(gpu::PassList& f, TemporalStore& own, const ViewContext& in, const LightingSettings& settings,
                 const Reflecting& reflecting, const Light& light, const Antialiasing& to) {
     ShownImages shown{light.followedDepth, light.followedMotion};
-    const std::optional<Reflections> reflections = reflectionsOf(in, reflecting);
+    std::optional<Reflections> reflections = reflectionsOf(in, reflecting);
     if (reflections && settings.temporal.reflections != 0) {
         const auto scope = f.scope("temporal");
+        reflections->upscaled = to.size != shown.depth.size;
         shown = withReflectedImages(f, *reflections, in.view, shown);
     }
     const TemporalImages means = temporal(f, own,

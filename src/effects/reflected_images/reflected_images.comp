@@ -13,6 +13,7 @@
 layout(constant_id = 2) const uint lambertOnly = 0u;
 layout(constant_id = 3) const uint moves = 0u;
 layout(constant_id = 4) const uint hasImageMotion = 0u;
+layout(constant_id = 5) const uint upscaled = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { ReflectedImagesParams params; };
@@ -107,7 +108,7 @@ const vec2 roughnessRange = vec2(roughestImage, 0.2);
 // a turning mirror shows moves near its axis, too.
 const vec2 own = vec2(0.03, 0.001);
 // Motion of the image in a surface that moves itself: how it turns is not known, so that nothing of the last frame stands
-// for it.
+// for it. Without upscaling, clipping to what a pixel and its neighbours show now does better than to start anew.
 const vec2 outside = vec2(4.0);
 
 // Where something at rest was in the last frame.
@@ -133,11 +134,11 @@ void showImage(ivec2 pixel, float d, vec3 p, vec3 n, float nv, float reflectance
     if (moves != 0u) {
         vec2 way = texelFetch(motion, pixel, 0).rg;
         vec2 itself = way - (uv - uvBefore(uv, d));
-        shows = shows < 0.5 ? 0.0 : 1.0;
-        if (shows > 0.0 && length(itself * params.view.size) >= own.x + own.y * length(way * params.view.size)) {
+        bool turns = length(itself * params.view.size) >= own.x + own.y * length(way * params.view.size);
+        if (upscaled != 0u && shows >= 0.5 && turns) {
             imageStore(shownMotion, pixel, vec4(outside, 0.0, 0.0));
-            return;
         }
+        shows = shows >= 0.5 && !turns ? 1.0 : 0.0;
     }
     if (shows <= 0.0) {
         return;

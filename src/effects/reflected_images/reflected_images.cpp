@@ -36,6 +36,7 @@ ShownImages withReflectedImages(gpu::PassList& f, const Reflections& in, const V
     bindSurfaces(f, pass, in.g).constant("lambertOnly", in.lambertOnly ? 1U : 0U);
     bindUpsampledSpecular(f, pass, in.specular)
         .constant("moves", moves)
+        .constant("upscaled", in.upscaled ? 1U : 0U)
         .constant("hasImageMotion", moves != 0 && imageMotion ? 1U : 0U)
         .read("depth", in.g.depth)
         .read("frontDepth", shown.depth)

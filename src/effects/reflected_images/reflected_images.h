@@ -43,6 +43,7 @@ struct Reflections {
     gpu::Image lit;  ///< RGBA16F: the sum of all light, not antialiased
     gpu::Image ggxTable;
     bool lambertOnly = false;  ///< MaterialsSettings
+    bool upscaled = false;     ///< antialiasing has several pixels for one of these
 };
 
 /// What a pixel shows.
