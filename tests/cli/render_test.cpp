@@ -175,8 +175,6 @@ TEST_F(Render, APictureWithoutAPresetIsAStill) {
     EXPECT_TRUE(quietSuccess(run({"render", cubes, "--size", "32x18", "--preset", "plain", "-o", "c.png"})));
 }
 
-// Over 5 s: glass has many shaders; without rays through the scene and diffuse ones it has fewer. Other settings change
-// nothing about it; its own does.
 TEST_F(Render, AnEffortIsForAStill) {
     const auto refusedWith = [&](const Arguments& more) {
         Arguments all{"render", cubes, "--size", "32x18", "-o", "a.png"};

@@ -22,15 +22,15 @@ Settings withScale(const char* scale) {
                        "specular.rays=0", "shadow.filter=hard"});
 }
 
-// A wall of tiles of 0.5 m.
-Scene tiledWall() {
+// A wall of tiles of this side [m]. facing: 1 or -1, along z.
+Scene tiledWall(float side = 0.5F, float z = 0.0F, float facing = 1.0F) {
     Scene scene;
     const uint32_t dark = builtin::addMaterial(scene, lambertMaterial(vec3(0.06F)));
     const uint32_t light = builtin::addMaterial(scene, lambertMaterial(vec3(0.8F)));
     for (int i = 0; i < 12 * 8; ++i) {
-        const vec3 middle{-2.75F + 0.5F * float(i % 12), -1.75F + 0.5F * float(i / 12), 0};
+        const vec3 middle{(-5.5F + float(i % 12)) * side, (-3.5F + float(i / 12)) * side, z};
         builtin::place(scene, fmt::format("tile {}", i), (i % 12 + i / 12) % 2 == 0 ? dark : light,
-                       builtin::patch({.right = {0.25F, 0, 0}, .up = {0, 0.25F, 0}}), at(middle));
+                       builtin::patch({.right = {0.5F * facing * side, 0, 0}, .up = {0, 0.5F * side, 0}}), at(middle));
     }
     return scene;
 }
@@ -173,14 +173,7 @@ TEST_P(HardMotion, AGlowingThingsImageLeavesNoTrail) {
 
 // A mirror turns about its middle and shows tiles behind the camera.
 Scene turningMirror() {
-    Scene scene;
-    const uint32_t dark = builtin::addMaterial(scene, lambertMaterial(vec3(0.06F)));
-    const uint32_t light = builtin::addMaterial(scene, lambertMaterial(vec3(0.8F)));
-    for (int i = 0; i < 12 * 8; ++i) {
-        builtin::place(scene, fmt::format("tile {}", i), (i % 12 + i / 12) % 2 == 0 ? dark : light,
-                       builtin::patch({.right = {-0.5F, 0, 0}, .up = {0, 0.5F, 0}}),
-                       at({-5.5F + float(i % 12), -3.5F + float(i / 12), 7}));
-    }
+    Scene scene = tiledWall(1.0F, 7.0F, -1.0F);
     const int32_t node = builtin::addNode(scene, {0, 0, 0});
     builtin::animate(scene, node,
                      {.target = Channel::Target::rotation,
