@@ -1,6 +1,7 @@
 // Records ray tracing with the frame's parameters.
 #include "renderer/scene_source.h"
 
+#include "renderer/glass/glass.h"
 #include "renderer/trace_scene/trace_scene.h"
 
 namespace reflet {
@@ -29,7 +30,20 @@ uint32_t sunShadowsAtHits(const Settings& settings, const ViewImages& seen) {
     return settings.traceScene.shadows == SceneShadows::map && seen.shadowMap ? sunShadowMap : sunShadowRay;
 }
 
+uint32_t throughGlass(const ViewInputs& in, const Settings& settings, const Rays& rays) {
+    if (!refractsPaths(settings, in)) {
+        return glassStraight;
+    }
+    return rays.ofView ? glassOfView : glassRefracts;
+}
+
 }  // namespace
+
+bool refractsPaths(const Settings& settings, const ViewInputs& in) {
+    return settings.traceScreen.enabled == 0 && settings.traceScene.enabled != 0 &&
+           settings.traceScene.light == SceneHitLight::path && in.traced != nullptr && !in.medium &&
+           drawsGlass(in.draws, settings.transmission, settings.materials);
+}
 
 void traceSceneFallback(gpu::PassList& f, Rays& rays, const ViewInputs& in, const Settings& settings,
                         const ViewImages& seen, const ScreenImages& screen) {
@@ -46,7 +60,7 @@ void traceSceneFallback(gpu::PassList& f, Rays& rays, const ViewInputs& in, cons
     const ProbeMaps none;
     traceScene(f, rays,
                {*in.traced, screen, seen.shadowMap, in.ggxTable, in.blueNoise, in.environment, in.lamps,
-                all ? in.probes : none, all ? in.cache : CacheBuffers{}},
+                all ? in.probes : none, all ? in.cache : CacheBuffers{}, throughGlass(in, settings, rays)},
                sunShadowsAtHits(settings, seen),
                {.own = rays.from.view,
                 .view = in.view,

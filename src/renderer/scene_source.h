@@ -12,4 +12,8 @@ namespace reflet {
 void traceSceneFallback(gpu::PassList& f, Rays& rays, const ViewInputs& in, const Settings& settings,
                         const ViewImages& seen, const ScreenImages& screen);
 
+/// Whether paths through the scene are refracted by glass, also those of view rays, instead of the layers' screen-space
+/// refraction: with settings whose rays are for the scene alone and bring all bounces. Not for a camera in a medium.
+bool refractsPaths(const Settings& settings, const ViewInputs& in);
+
 }  // namespace reflet

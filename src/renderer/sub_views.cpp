@@ -24,10 +24,6 @@ Settings glassSettings(const Settings& settings, const DrawList& draws) {
     return layer;
 }
 
-bool scattersInGlass(const Settings& settings) {
-    return settings.traceScreen.enabled == 0 && settings.traceScene.enabled != 0;
-}
-
 Settings refractedSettings(Settings settings) {
     settings.traceScreen.enabled = settings.traceScreen.enabled != 0 || settings.traceScene.enabled != 0 ? 1U : 0U;
     return settings;

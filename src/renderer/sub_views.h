@@ -14,9 +14,6 @@ Settings glassSettings(const Settings& settings, const DrawList& draws);
 /// Rays that a layer of glass has refracted: the screen first, which alone has the glass behind, also where other rays
 /// are for the scene alone.
 Settings refractedSettings(Settings settings);
-/// Whether frosted glass scatters its rays at random, as settings do whose rays are for the scene alone, rather than
-/// look prefiltered light up.
-bool scattersInGlass(const Settings& settings);
 /// Clear coats, which have no diffuse base.
 Settings coatSettings(const Settings& settings);
 

@@ -17,4 +17,10 @@ float refractedRoughness(float roughness, float ior) {
     return roughness * sqrt(min(0.7071 * (ior - 1.0), 1.0));
 }
 
+// Index of refraction of red (side -1), green (0) and blue light (1): those of red and blue differ by (ior - 1) over the
+// Abbe number. dispersion: of KHR_materials_dispersion, 20 over the Abbe number.
+float dispersedIndex(float ior, float dispersion, float side) {
+    return max(ior + side * (ior - 1.0) * dispersion * 0.025, 1.0);
+}
+
 #endif

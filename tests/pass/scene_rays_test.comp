@@ -4,6 +4,6 @@
 #include "scene_rays_test.h"
 #include "renderer/trace_scene/scene_triangles.glsl"
 const bool testEveryHit = false;
-bool acceptHit(uint triangle, vec2 barycentrics, vec3 direction) { return barycentrics.x >= 0.5; }
+bool acceptHit(uint triangle, vec2 barycentrics, vec3 direction, bool first) { return barycentrics.x >= 0.5; }
 #include "renderer/trace_scene/scene_rays.glsl"
 #include "scene_rays_test.glsl"

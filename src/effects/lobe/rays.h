@@ -171,6 +171,7 @@ struct Rays {
     uint32_t lobe = 0;
     bool highlights = false;  ///< whether some Ray.highlighted may be true
     bool spreads = false;     ///< whether some Ray.spread may be above 0
+    bool ofView = false;      ///< view rays, from in front of the surfaces in `from`, whose own light is known
     bool countSteps = false;
     bool directional = false;  ///< whether to compute LobeLight.directional; diffuse only
 };

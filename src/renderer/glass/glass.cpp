@@ -48,18 +48,18 @@ GlassSurfaces glassSurfaces(gpu::PassList& f, const DrawList& list, const ViewPa
     return out;
 }
 
-RefractedRays refractRays(gpu::PassList& f, const GBuffer& g, const GlassSurfaces& glass,
-                          const RefractionTables& tables, const Refraction& kinds, const RefractParams& params) {
+RefractedRays refractRays(gpu::PassList& f, const GBuffer& g, const GlassSurfaces& glass, gpu::Image ggxTable,
+                          const Refraction& kinds, const RefractParams& params) {
     const bool disperses = kinds.disperses;
     const uvec2 size = g.depth.size;
     RaySurfaces from{.g = g, .view = params.view};
     from.origins = f.image("glass.origins", VK_FORMAT_R32G32B32A32_SFLOAT, size, disperses ? 3 : 1, true);
     from.g.geometricNormal = f.image("glass.leaving_normal", VK_FORMAT_R32_UINT, size);
-    RayGeneration generation{.from = from, .tiles = {}, .ggxTable = tables.ggxTable};
+    RayGeneration generation{.from = from, .tiles = {}, .ggxTable = ggxTable};
     generation.lobe = lobeSpecular;
     generation.params.rayCount = disperses ? 3 : 1;
     RefractedRays out{raysOf(f, generation), f.image("glass.share", VK_FORMAT_R16G16B16A16_SFLOAT, size)};
-    out.rays.spreads = params.frosted == glassPrefiltered;
+    out.rays.spreads = params.frosted != 0;
     gpu::ComputePass pass = f.compute("refract_rays", "refract_rays.comp");
     bindSurfaces(f, pass, g)
         .constant("disperses", disperses ? 1U : 0U)
@@ -73,8 +73,7 @@ RefractedRays refractRays(gpu::PassList& f, const GBuffer& g, const GlassSurface
         .read("kind", glass.kind)
         .read("exitDepth", glass.exitDepth)
         .read("exitNormal", glass.exitNormal)
-        .read("blueNoise", tables.blueNoise)
-        .read("ggxTable", tables.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
+        .read("ggxTable", ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}))
         .write("origins", from.origins)
         .write("leavingNormal", from.g.geometricNormal)
         .write("share", out.share)
@@ -83,6 +82,25 @@ RefractedRays refractRays(gpu::PassList& f, const GBuffer& g, const GlassSurface
         .write("source", out.rays.source)
         .write("missed", out.rays.waiting)
         .params(params)
+        .dispatch(size);
+    return out;
+}
+
+RefractedRays raysToGlass(gpu::PassList& f, const GBuffer& g, const ViewParams& view) {
+    const uvec2 size = g.depth.size;
+    RayGeneration generation{.from = {.g = g, .view = view}, .tiles = {}, .ggxTable = {}};
+    generation.lobe = lobeSpecular;
+    generation.params.rayCount = 1;
+    RefractedRays out{raysOf(f, generation), f.image("glass.share", VK_FORMAT_R16G16B16A16_SFLOAT, size)};
+    out.rays.ofView = true;
+    f.compute("rays_to_glass", "rays_to_glass.comp")
+        .read("depth", g.depth)
+        .write("share", out.share)
+        .write("direction", out.rays.direction)
+        .write("answer", out.rays.answer)
+        .write("source", out.rays.source)
+        .write("missed", out.rays.waiting)
+        .params(view)
         .dispatch(size);
     return out;
 }

@@ -29,14 +29,10 @@ struct GlassDrawParams {
     uint medium;  // kind of the volume that the camera is in
 };
 
-const uint glassClear = 0;        // no surface is rough
-const uint glassPrefiltered = 1;  // rays of rough ones read prefiltered light (Ray.spread)
-const uint glassScatters = 2;     // they have random directions
-
 struct RefractParams {
     ViewParams view;
     uint exitSteps;
-    uint frosted;    // glassClear, glassPrefiltered, glassScatters
+    uint frosted;    // 1: rays of rough surfaces read prefiltered light (Ray.spread)
     float outerIor;  // around the volume that the camera is in
 };
 
@@ -86,14 +82,11 @@ struct Refraction {
     bool fromInside = false;  ///< the camera is in a medium
 };
 
-/// Of the view.
-struct RefractionTables {
-    gpu::Image ggxTable;
-    gpu::BufferView blueNoise;
-};
+RefractedRays refractRays(gpu::PassList& f, const GBuffer& g, const GlassSurfaces& glass, gpu::Image ggxTable,
+                          const Refraction& kinds, const RefractParams& params);
 
-RefractedRays refractRays(gpu::PassList& f, const GBuffer& g, const GlassSurfaces& glass,
-                          const RefractionTables& tables, const Refraction& kinds, const RefractParams& params);
+/// The view ray of each pixel of the layer, from in front of it, for paths that refract it themselves.
+RefractedRays raysToGlass(gpu::PassList& f, const GBuffer& g, const ViewParams& view);
 
 /// over = what the layer itself sends, where there is one, plus what it transmits (none: nothing), over `behind` as far
 /// as the layer covers it. All RGBA16F. The alpha of `behind` is kept.

@@ -4,6 +4,7 @@
 #include "lighting/indirect.h"
 #include "renderer/coat/coat.h"
 #include "renderer/lit_layer.h"
+#include "renderer/scene_source.h"
 #include "renderer/sub_views.h"
 
 #include <string>
@@ -22,7 +23,9 @@ std::optional<uint32_t> mediumDraw(const ViewInputs& in) {
 std::vector<GBuffer> peelGlass(gpu::PassList& f, const ViewInputs& in, const Settings& settings,
                                gpu::Image opaqueDepth) {
     std::vector<GBuffer> peeled;
-    for (uint32_t i = 0; i < settings.transmission.layers; ++i) {
+    // Paths find the layers behind the first.
+    const uint32_t layers = refractsPaths(settings, in) ? 1 : settings.transmission.layers;
+    for (uint32_t i = 0; i < layers; ++i) {
         const GBufferContent content{.clipPlane = in.clipPlane,
                                      .opaqueDepth = opaqueDepth,
                                      .nearerDepth = i > 0 ? peeled.back().depth : gpu::Image{},
@@ -40,8 +43,23 @@ gpu::Image glassOver(gpu::PassList& f, const GBuffer& g, gpu::Image layer, const
     return over;
 }
 
-uint32_t frostedGlass(const DrawList& draws, const Settings& settings) {
-    return !draws.frosted ? glassClear : scattersInGlass(settings) ? glassScatters : glassPrefiltered;
+// What is seen through the layer, by its refraction in screen space or by paths of view rays.
+RefractedRays raysThrough(gpu::PassList& f, const ViewInputs& in, const Settings& settings, TracedView& seen,
+                          const GlassSurfaces& made) {
+    const GBuffer& g = seen.images.g;
+    if (refractsPaths(settings, in)) {
+        RefractedRays rays = raysToGlass(f, g, in.view);
+        answerRays(f, rays.rays, in, settings, seen);
+        return rays;
+    }
+    if (in.draws.frosted) {
+        lighting::prefilterOwnLight(f, seen.screen);
+    }
+    RefractedRays rays = refractRays(
+        f, g, made, in.ggxTable, {in.draws.dispersive, in.medium.has_value()},
+        {in.view, settings.transmission.exitSteps, in.draws.frosted ? 1U : 0U, in.medium ? in.medium->outerIor : 1.0F});
+    answerRays(f, rays.rays, in, refractedSettings(settings), seen);
+    return rays;
 }
 
 // seen: with the layer's G-buffer, and the light behind it on screen. nearerDepth: of the layer in front, if any.
@@ -50,15 +68,8 @@ LightThroughGlass addLayer(gpu::PassList& f, const ViewInputs& in, const Setting
     const bool layers = bool(behind.indirectDiffuse);
     const GBuffer& g = seen.images.g;
     const LightLayers lit = lightLayer(f, in, settings, seen, layers);
-    const uint32_t frosted = frostedGlass(in.draws, settings);
-    if (frosted == glassPrefiltered) {
-        lighting::prefilterOwnLight(f, seen.screen);
-    }
     const GlassSurfaces made = glassSurfaces(f, in.draws, in.view, g, in.medium);
-    RefractedRays refracted =
-        refractRays(f, g, made, {in.ggxTable, in.blueNoise}, {in.draws.dispersive, in.medium.has_value()},
-                    {in.view, settings.transmission.exitSteps, frosted, in.medium ? in.medium->outerIor : 1.0F});
-    answerRays(f, refracted.rays, in, refractedSettings(settings), seen);
+    const RefractedRays refracted = raysThrough(f, in, settings, seen, made);
     LightLayers out = behind;
     out.lit = glassOver(f, g, lit.lit, &refracted, behind.lit);
     if (layers) {
@@ -130,7 +141,8 @@ LightThroughGlass throughGlass(gpu::PassList& f, const ViewInputs& in, const Set
     const auto scope = f.scope("glass");
     const Settings ofLayer = glassSettings(settings, in.draws);
     const std::vector<GBuffer> peeled = peelGlass(f, in, ofLayer, seen.images.g.depth);
-    const ScreenImages screen = screenBehind(f, seen, refractedSettings(ofLayer));
+    const ScreenImages screen =
+        refractsPaths(ofLayer, in) ? seen.screen : screenBehind(f, seen, refractedSettings(ofLayer));
     for (size_t i = peeled.size(); i-- > 0;) {
         const auto layerScope = f.scope(std::to_string(i));
         TracedView layer{seen.images, screen, {}};

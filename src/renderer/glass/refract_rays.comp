@@ -11,7 +11,6 @@
 #include "shaders/not_inlined.glsl"
 #include "shaders/projection.glsl"
 #include "shaders/refraction.glsl"
-#include "shaders/sampling.glsl"
 
 layout(constant_id = 0) const uint disperses = 0u;   // 1: some materials do
 layout(constant_id = 1) const uint fromInside = 0u;  // 1: the camera is in a medium
@@ -34,11 +33,7 @@ layout(rgba16f) uniform writeonly image2D share;
 layout(rg32ui) uniform writeonly uimage2DArray direction;
 layout(rgba16f) uniform writeonly image2DArray answer;
 layout(rgba8) uniform writeonly image2DArray source;
-layout(scalar) readonly buffer BlueNoiseBlock { uint texels[]; } blueNoise;
 #include "effects/lobe/rays_append.glsl"
-
-uint loadBlueNoise(uint texel) { return blueNoise.texels[texel]; }
-#include "shaders/blue_noise.glsl"
 
 // A ray at a boundary of the glass.
 struct Crossing {
@@ -145,20 +140,10 @@ Refracted leaveMedium(Pane pane, vec3 geometric, float ratio, vec3 light) {
     return r;
 }
 
-// A random direction of the lobe that prefiltered light has: that of a mirror of this roughness, seen straight on.
-vec3 scattered(ivec2 pixel, int layer, vec3 along, float roughness) {
-    vec2 u = blueNoisePoint(uvec2(pixel), uint(layer) + hashPcg(params.view.seed + 17u), params.view.frame, 0u, 1u);
-    vec3 h = sampleGgxVisible(u, vec3(0.0, 0.0, 1.0), roughness * roughness);
-    return basisAround(along) * (2.0 * h.z * h - vec3(0.0, 0.0, 1.0));
-}
-
 void emitRay(Pane pane, int layer, Refracted r, float ior) {
     float spread = pane.passes.a != 0.0 ? refractedRoughness(pane.roughness, ior) : pane.roughness;
-    uint frosted = spread > 0.05 ? notInlined(params.frosted, gl_GlobalInvocationID.x) : glassClear;
-    if (frosted == glassScatters) {
-        r.direction = scattered(pane.pixel, layer, r.direction, spread);
-    }
-    Ray ray = Ray(r.direction, 1.0, 1.0, frosted == glassPrefiltered ? spread : 0.0, false);
+    bool frosted = spread > 0.05 && notInlined(params.frosted, gl_GlobalInvocationID.x) != 0u;
+    Ray ray = Ray(r.direction, 1.0, 1.0, frosted ? spread : 0.0, false);
     imageStore(origins, ivec3(pane.pixel, layer), vec4(r.exit.point, r.exit.path));
     imageStore(direction, ivec3(pane.pixel, layer), uvec4(packRay(ray), 0u, 0u));
     appendRay(WaitingRay(ivec3(pane.pixel, layer), 1.0, 0.0, false, vec3(0.0)));
@@ -183,10 +168,8 @@ void refractPixel(ivec2 pixel, float d) {
         r = refractBy(pane, ior, light);
         float dispersion = disperses != 0u ? float(texelFetch(kind, pixel, 0).r >> glassKindBits) / glassDispersionSteps : 0.0;
         split = dispersion > 0.0;
-        // Indices of red and blue light, whose difference is (ior - 1) over the Abbe number.
-        float aside = (ior - 1.0) * dispersion * 0.025;
         for (int side = -1; split && side <= 1; side += 2) {
-            float other = max(ior + float(side) * aside, 1.0);
+            float other = dispersedIndex(ior, dispersion, float(side));
             Refracted o = refractBy(pane, other, light);
             emitRay(pane, side + 1, o, other);
             r.light = side < 0 ? vec3(o.light.r, r.light.gb) : vec3(r.light.rg, o.light.b);

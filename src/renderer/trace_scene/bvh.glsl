@@ -69,16 +69,16 @@ bool intersectTriangle(BvhRay ray, SceneTriangle t, float nearest, float farthes
     return inside && hit.x >= nearest && hit.x <= farthest;
 }
 
-bool intersectLeaf(BvhRay ray, uint leaf, float nearest, inout SceneHit hit) {
-    uint first = leaf & bvhFirstMask;
-    uint end = first + ((leaf & ~bvhLeaf) >> bvhCountShift) + 1u;
+bool intersectLeaf(BvhRay ray, uint leaf, float nearest, bool first, inout SceneHit hit) {
+    uint begin = leaf & bvhFirstMask;
+    uint end = begin + ((leaf & ~bvhLeaf) >> bvhCountShift) + 1u;
     bool any = false;
-    for (uint i = first; i < end; ++i) {
+    for (uint i = begin; i < end; ++i) {
         SceneTriangle t = loadSceneTriangle(i);
         vec3 at;
         if (intersectTriangle(ray, t, nearest, hit.distance, at)) {
             bool tests = testEveryHit || (t.flags & triangleCutOut) != 0u;
-            if (!tests || acceptHit(i, at.yz, ray.direction)) {
+            if (!tests || acceptHit(i, at.yz, ray.direction, first)) {
                 hit = SceneHit(at.x, at.yz, i);
                 any = true;
             }
@@ -118,7 +118,7 @@ bool traverseBvh(vec3 origin, vec3 direction, float nearest, float farthest, boo
         if (at == bvhNothing) {
             return any;
         }
-        any = intersectLeaf(ray, at, nearest, hit) || any;
+        any = intersectLeaf(ray, at, nearest, first, hit) || any;
         if (waiting == 0u || (first && any)) {
             return any;
         }

@@ -37,6 +37,11 @@ struct SceneInstance {
     uint unused;
 };
 
+// Values of the specialization constant `throughGlass` (scene_surfaces.glsl): how paths pass glass.
+const uint glassStraight = 0;  // straight, by chance
+const uint glassRefracts = 1;  // as the reference's
+const uint glassOfView = 2;    // likewise; the rays are view rays, from in front of glass whose own light is known
+
 SHARED_END
 
 #endif

@@ -9,9 +9,9 @@
 uniform accelerationStructureEXT sceneHierarchy;
 
 // If some triangles are alpha-tested, the structure reports all triangles as candidates.
-bool acceptCandidate(uint triangle, vec2 barycentrics, vec3 direction) {
+bool acceptCandidate(uint triangle, vec2 barycentrics, vec3 direction, bool first) {
     bool tests = testEveryHit || (loadSceneTriangle(triangle).flags & triangleCutOut) != 0u;
-    return !tests || acceptHit(triangle, barycentrics, direction);
+    return !tests || acceptHit(triangle, barycentrics, direction, first);
 }
 
 bool queryScene(vec3 origin, vec3 direction, float nearest, float farthest, uint flags, out SceneHit hit) {
@@ -19,12 +19,13 @@ bool queryScene(vec3 origin, vec3 direction, float nearest, float farthest, uint
     if (!(nearest <= farthest)) {
         return false;
     }
+    bool first = flags != 0u;
     rayQueryEXT query;
     rayQueryInitializeEXT(query, sceneHierarchy, flags | (testEveryHit ? gl_RayFlagsNoOpaqueEXT : gl_RayFlagsNoneEXT),
                           0xFFu, origin, nearest, direction, farthest);
     while (rayQueryProceedEXT(query)) {
         uint triangle = uint(rayQueryGetIntersectionPrimitiveIndexEXT(query, false));
-        if (acceptCandidate(triangle, rayQueryGetIntersectionBarycentricsEXT(query, false), direction)) {
+        if (acceptCandidate(triangle, rayQueryGetIntersectionBarycentricsEXT(query, false), direction, first)) {
             rayQueryConfirmIntersectionEXT(query);
         }
     }

@@ -12,6 +12,8 @@
 #include "shaders/noise.glsl"
 #include "shaders/shading_normal.glsl"
 
+layout(constant_id = 43) const uint throughGlass = 0u;
+
 // VertexAttributes (scene/scene.h); color: four 16-bit parts of 1.
 struct SceneVertex {
     vec3 normal;
@@ -117,13 +119,17 @@ float chanceOfHit(uint triangle, vec2 barycentrics, vec3 direction) {
     return hashToUnit(hashPcg(bits.x + hashPcg(bits.y + hashPcg(bits.z + hashPcg(triangle)))));
 }
 
-// Alpha test for the traversal. Rays pass glass straight, with the probability of what it lets through.
+// Alpha test for the traversal. Rays pass glass straight, with the probability of what it lets through, unless they are
+// parts of paths that it refracts. first: any hit will do, as for shadow rays, which always pass it straight.
 const bool testEveryHit = false;
-bool acceptHit(uint triangle, vec2 barycentrics, vec3 direction) {
+bool acceptHit(uint triangle, vec2 barycentrics, vec3 direction, bool first) {
     ScenePlace place = scenePlace(loadSceneTriangle(triangle), barycentrics);
     vec4 color = sceneBaseColor(place);
     float alpha = color.a;
     if (sceneMaterials.items[place.material].params.transmission > 0.0) {
+        if (throughGlass != glassStraight && !first) {
+            return alpha >= sceneMaterials.items[place.material].params.alphaCutoff;
+        }
         float share =
             luminance(glassShare(sceneMaterials.items[place.material].params, sceneTransmission(place), color.rgb));
         share = sceneMaterials.items[place.material].params.blended != 0u ? mix(1.0, share, alpha) : share;
@@ -150,6 +156,13 @@ struct SceneSurface {
     float clearance;       // offset of ray origins against self-intersection [m]
     bool emitter;          // lamps stand for what it emits
     bool hiddenBack;       // back of a single-sided surface, which is culled for the camera
+    // Of glass:
+    float transmission;  // share of the light beneath the surface that passes it, 0: opaque
+    vec3 passed;         // that, coloured
+    float coverage;      // alpha where it is coverage, else 1
+    bool bounded;        // the boundary of a volume, not a sheet
+    bool front;          // seen from outside
+    uint instance;
 };
 
 vec3 largestOf(vec3 a, vec3 b, vec3 c) { return max(abs(a), max(abs(b), abs(c))); }
@@ -211,7 +224,8 @@ SceneSurface sceneSurface(SceneHit hit, vec3 direction, float width) {
     // The footprint on a slanted surface, by equal area.
     place.width = width * inversesqrt(max(abs(facing), 0.01));
     MaterialParams material = sceneMaterials.items[place.material].params;
-    s.baseColor = clamp(sceneBaseColor(place).rgb, 0.0, 1.0);
+    vec4 color = sceneBaseColor(place);
+    s.baseColor = clamp(color.rgb, 0.0, 1.0);
     vec3 shading = sceneShadingNormal(t, place, front);
     s.normal = consistentNormal(facing <= 0.0 ? shading : -shading, s.geometricNormal, -direction);
     s.roughness = material.roughness;
@@ -221,7 +235,13 @@ SceneSurface sceneSurface(SceneHit hit, vec3 direction, float width) {
         s.roughness *= texel.x;
         s.metallic *= texel.y;
     }
-    s.baseColor *= 1.0 - sceneTransmission(place) * (1.0 - s.metallic);
+    s.transmission = sceneTransmission(place) * (1.0 - s.metallic);
+    s.passed = s.baseColor * s.transmission;
+    s.coverage = material.blended != 0u ? clamp(color.a, 0.0, 1.0) : 1.0;
+    s.bounded = material.thickness > 0.0;
+    s.front = facing <= 0.0;
+    s.instance = t.instance;
+    s.baseColor *= 1.0 - s.transmission;
     s.occlusion = 1.0;
     if (hasSceneTexture(place, slotOcclusion)) {
         s.occlusion += material.occlusionStrength * (readSceneTexture(place, slotOcclusion).r - 1.0);

@@ -9,8 +9,9 @@ void traceScene(gpu::PassList& f, Rays& rays, const TraceSceneInputs& in, uint32
                 const TraceSceneParams& params) {
     const GBuffer& g = in.screen.g;
     const gpu::BufferView missed = makeRayList(f, rays);
-    const bool reuse = params.settings.reuseScreen != 0 &&
-                       (params.settings.light == SceneHitLight::screen || params.fromPrevious != 0);
+    const bool allBounces = params.fromPrevious != 0 || in.throughGlass == glassOfView;  // in the light on the screen
+    const bool reuse =
+        params.settings.reuseScreen != 0 && (params.settings.light == SceneHitLight::screen || allBounces);
     const bool tellsMotion = rays.imageMotion && rays.firstRay == 0;
     const CacheBuffers cache =
         in.cache ? in.cache
@@ -25,6 +26,7 @@ void traceScene(gpu::PassList& f, Rays& rays, const TraceSceneInputs& in, uint32
     pass.constant("lobe", rays.lobe)
         .constant("materialFeatures", g.features)
         .constant("sunShadows", sunShadows)
+        .constant("throughGlass", in.throughGlass)
         .constant("reuseScreen", reuse ? 1U : 0U)
         .constant("tellsMotion", tellsMotion ? 1U : 0U)
         .constant("anyEmitters", anyEmitters(in.lamps) ? 1U : 0U)
