@@ -245,7 +245,10 @@ vec3 followPath(SceneRay ray, bool highlighted, inout uint random, inout ToldCel
         if (isGlass(found)) {
             shares = glassShares(path.media, found, dot(at.normal, at.toViewer), at.surface);
         }
-        bool knownLight = throughGlass == glassOfView && vertex == 0u && isGlass(found);
+        bool knownLight = throughGlass == glassOfView && vertex == 0u && found.transmissive;
+        if (knownLight && !isGlass(found)) {
+            return vec3(0.0);
+        }
         if (!knownLight) {
             path.radiance += path.throughput * lightOfHit(path, found, at, byLamps, random);
             CachedLight known = cachedLight(at, random);

@@ -156,7 +156,8 @@ struct SceneSurface {
     float clearance;       // offset of ray origins against self-intersection [m]
     bool emitter;          // lamps stand for what it emits
     bool hiddenBack;       // back of a single-sided surface, which is culled for the camera
-    // Of glass:
+    // Of transmissive materials:
+    bool transmissive;
     float transmission;  // share of the light beneath the surface that passes it, 0: opaque
     vec3 passed;         // that, coloured
     float coverage;      // alpha where it is coverage, else 1
@@ -235,6 +236,7 @@ SceneSurface sceneSurface(SceneHit hit, vec3 direction, float width) {
         s.roughness *= texel.x;
         s.metallic *= texel.y;
     }
+    s.transmissive = material.transmission > 0.0;
     s.transmission = sceneTransmission(place) * (1.0 - s.metallic);
     s.passed = s.baseColor * s.transmission;
     s.coverage = material.blended != 0u ? clamp(color.a, 0.0, 1.0) : 1.0;
