@@ -40,8 +40,7 @@ uint32_t throughGlass(const ViewInputs& in, const Settings& settings, const Rays
 }  // namespace
 
 bool refractsPaths(const Settings& settings, const ViewInputs& in) {
-    return settings.traceScreen.enabled == 0 && settings.traceScene.enabled != 0 &&
-           settings.traceScene.light == SceneHitLight::path && in.traced != nullptr && !in.medium &&
+    return settings.traceScene.enabled != 0 && in.traced != nullptr && !in.medium &&
            drawsGlass(in.draws, settings.transmission, settings.materials);
 }
 

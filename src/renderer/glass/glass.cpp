@@ -58,7 +58,7 @@ RefractedRays refractRays(gpu::PassList& f, const GBuffer& g, const GlassSurface
     RayGeneration generation{.from = from, .tiles = {}, .ggxTable = ggxTable};
     generation.lobe = lobeSpecular;
     generation.params.rayCount = disperses ? 3 : 1;
-    RefractedRays out{raysOf(f, generation), f.image("glass.share", VK_FORMAT_R16G16B16A16_SFLOAT, size)};
+    RefractedRays out{raysOf(f, generation), {}, f.image("glass.share", VK_FORMAT_R16G16B16A16_SFLOAT, size)};
     out.rays.spreads = params.frosted != 0;
     gpu::ComputePass pass = f.compute("refract_rays", "refract_rays.comp");
     bindSurfaces(f, pass, g)
@@ -91,7 +91,7 @@ RefractedRays raysToGlass(gpu::PassList& f, const GBuffer& g, const ViewParams& 
     RayGeneration generation{.from = {.g = g, .view = view}, .tiles = {}, .ggxTable = {}};
     generation.lobe = lobeSpecular;
     generation.params.rayCount = 1;
-    RefractedRays out{raysOf(f, generation), f.image("glass.share", VK_FORMAT_R16G16B16A16_SFLOAT, size)};
+    RefractedRays out{raysOf(f, generation), {}, f.image("glass.share", VK_FORMAT_R16G16B16A16_SFLOAT, size)};
     out.rays.ofView = true;
     f.compute("rays_to_glass", "rays_to_glass.comp")
         .read("depth", g.depth)
@@ -105,13 +105,27 @@ RefractedRays raysToGlass(gpu::PassList& f, const GBuffer& g, const ViewParams& 
     return out;
 }
 
+gpu::Image answersOf(gpu::PassList& f, const Rays& rays) {
+    const uvec2 size = rays.from.g.depth.size;
+    const gpu::Image light = f.image("glass.answers", VK_FORMAT_R16G16B16A16_SFLOAT, size);
+    f.compute("glass_answers", "glass_answers.comp")
+        .read("answer", rays.answer)
+        .write("light", light)
+        .params(GlassOverParams{size})
+        .dispatch(size);
+    return light;
+}
+
 void glassOver(gpu::PassList& f, const GBuffer& g, gpu::Image layer, const RefractedRays* transmitted,
                gpu::Image behind, gpu::Image over) {
     f.compute("glass_over", "glass_over.comp")
         .constant("transmits", transmitted != nullptr ? 1U : 0U)
         .constant("disperses", transmitted != nullptr && transmitted->rays.count > 1 ? 1U : 0U)
+        .constant("denoises", transmitted != nullptr && transmitted->denoised ? 1U : 0U)
         .read("depth", g.depth)
         .read("motion", g.motion)
+        .read("material", g.material)
+        .read("denoised", transmitted != nullptr && transmitted->denoised ? transmitted->denoised : behind)
         .read("layer", layer)
         .read("behind", behind)
         .read("share", transmitted != nullptr ? transmitted->share : behind)

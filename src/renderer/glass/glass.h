@@ -29,6 +29,8 @@ struct GlassDrawParams {
     uint medium;  // kind of the volume that the camera is in
 };
 
+const float frostedFrom = 0.05;  // roughness from which refracted light is blurred
+
 struct RefractParams {
     ViewParams view;
     uint exitSteps;
@@ -72,6 +74,7 @@ GlassSurfaces glassSurfaces(gpu::PassList& f, const DrawList& list, const ViewPa
 /// A ray for each pixel of the layer, or three where it disperses light, from where it leaves the glass.
 struct RefractedRays {
     Rays rays;
+    gpu::Image denoised;  ///< RGBA16F: what the rays of rough surfaces show, denoised; none: as answered
     /// RGBA16F: share of the ray's radiance that reaches the viewer; number of rays: 3 are of red, green, blue.
     gpu::Image share;
 };
@@ -87,6 +90,9 @@ RefractedRays refractRays(gpu::PassList& f, const GBuffer& g, const GlassSurface
 
 /// The view ray of each pixel of the layer, from in front of it, for paths that refract it themselves.
 RefractedRays raysToGlass(gpu::PassList& f, const GBuffer& g, const ViewParams& view);
+
+/// Radiance that the first ray of each pixel has been answered with, and its hit distance: RGBA16F.
+gpu::Image answersOf(gpu::PassList& f, const Rays& rays);
 
 /// over = what the layer itself sends, where there is one, plus what it transmits (none: nothing), over `behind` as far
 /// as the layer covers it. All RGBA16F. The alpha of `behind` is kept.

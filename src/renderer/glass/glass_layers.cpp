@@ -7,6 +7,7 @@
 #include "renderer/scene_source.h"
 #include "renderer/sub_views.h"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -43,13 +44,29 @@ gpu::Image glassOver(gpu::PassList& f, const GBuffer& g, gpu::Image layer, const
     return over;
 }
 
+// Within the frame alone, less and less at rest, where the mean over frames does it: what is seen through glass moves
+// otherwise than the surface, and otherwise than a reflection.
+gpu::Image denoisedFrosted(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const Rays& rays) {
+    DenoiseSettings within = settings.denoise;
+    within.radius /= std::sqrt(1.0F + static_cast<float>(in.view.rest));
+    LobeLight light;
+    light.from = {rays.from.g, in.view, 1};
+    light.radiance = answersOf(f, rays);
+    return denoise(f, nullptr, light, lobeSpecular, in.view, within).radiance;
+}
+
 // What is seen through the layer, by its refraction in screen space or by paths of view rays.
 RefractedRays raysThrough(gpu::PassList& f, const ViewInputs& in, const Settings& settings, TracedView& seen,
                           const GlassSurfaces& made) {
     const GBuffer& g = seen.images.g;
     if (refractsPaths(settings, in)) {
         RefractedRays rays = raysToGlass(f, g, in.view);
-        answerRays(f, rays.rays, in, settings, seen);
+        Settings byPaths = settings;
+        byPaths.traceScreen.enabled = 0;
+        answerRays(f, rays.rays, in, byPaths, seen);
+        if (in.draws.frosted && settings.denoise.enabled != 0) {
+            rays.denoised = denoisedFrosted(f, in, settings, rays.rays);
+        }
         return rays;
     }
     if (in.draws.frosted) {

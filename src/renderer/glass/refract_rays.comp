@@ -142,7 +142,7 @@ Refracted leaveMedium(Pane pane, vec3 geometric, float ratio, vec3 light) {
 
 void emitRay(Pane pane, int layer, Refracted r, float ior) {
     float spread = pane.passes.a != 0.0 ? refractedRoughness(pane.roughness, ior) : pane.roughness;
-    bool frosted = spread > 0.05 && notInlined(params.frosted, gl_GlobalInvocationID.x) != 0u;
+    bool frosted = spread > frostedFrom && notInlined(params.frosted, gl_GlobalInvocationID.x) != 0u;
     Ray ray = Ray(r.direction, 1.0, 1.0, frosted ? spread : 0.0, false);
     imageStore(origins, ivec3(pane.pixel, layer), vec4(r.exit.point, r.exit.path));
     imageStore(direction, ivec3(pane.pixel, layer), uvec4(packRay(ray), 0u, 0u));

@@ -221,10 +221,15 @@ vec3 followPath(SceneRay ray, bool highlighted, inout uint random, inout ToldCel
     for (uint vertex = 0u;; ++vertex) {
         SceneHit hit;
         if (!closestHit(path.ray.origin, path.ray.direction, 0.0, sceneFar, hit)) {
+            hitDistance = throughGlass == glassOfView && vertex > 0u && path.bounces == 0u ? largestHalf : hitDistance;
             vec3 sky = vertex > 0u ? environmentRadiance(path.ray.direction) : vec3(0.0);
             return path.radiance + path.throughput * sky;
         }
-        hitDistance = vertex == 0u ? hit.distance : hitDistance;
+        if (throughGlass == glassOfView && path.bounces == 0u) {
+            hitDistance = vertex == 0u ? 0.0 : hitDistance + hit.distance;  // behind the glass
+        } else if (vertex == 0u) {
+            hitDistance = hit.distance;
+        }
         float width = params.mips != 0u ? path.ray.width + path.ray.spread * hit.distance : 0.0;
         SceneSurface found = sceneSurface(hit, path.ray.direction, width);
         path.throughput *= throughGlass != glassStraight ? transmittance(path.media, hit.distance) : vec3(1.0);
