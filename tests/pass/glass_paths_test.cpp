@@ -1,5 +1,5 @@
-// Glass on paths through the scene (presets still and pathtrace), against the path tracer on the CPU: what lies behind
-// total reflection, volumes in one another, dispersion, rough boundaries, sheets, and glass in mirrors.
+// Glass on paths through the scene (presets still, hybrid and pathtrace), against the path tracer on the CPU: what lies
+// behind total reflection, volumes in one another, dispersion, rough boundaries, sheets, and glass in mirrors.
 #include "compare/compare.h"
 #include "pass/harness.h"
 #include "reference/reference.h"
@@ -60,8 +60,7 @@ constexpr unsigned cell = 24;  // pixels
 struct Case {
     const char* name;
     void (*add)(Scene&, const mat4& place);
-    double most;   // relative MSE of the paths, which is noise
-    double least;  // of the layers' refraction in screen space, which leaves something out
+    double most;  // relative MSE of the paths, which is noise; twice that in hybrid
 };
 
 void totalReflection(Scene& scene, const mat4& place) {
@@ -112,14 +111,15 @@ void ball(Scene& scene, const mat4& place) {
     add(scene, tinted(glass(1.0F, 1.5F), {0.3F, 0.9F, 0.4F}), builtin::sphere(0.8F, 48), place);
 }
 
-constexpr std::array cases{Case{"total reflection", totalReflection, 0.005, 0.01},
-                           Case{"volumes in one another", volumesInOneAnother, 0.01, 0.05},
-                           Case{"dispersion", dispersion, 0.02, 0.02},
-                           Case{"rough boundaries", roughBoundaries, 0.02, 0.01},
-                           Case{"glass that is partly opaque", halfGlass, 0.01, 0.005},
-                           Case{"many sheets", manySheets, 0.02, 0.02},
-                           Case{"a mirror", mirror, 0.005, 0.1},
-                           Case{"a ball", ball, 0.005, 0.003}};
+// By layers that are refracted in screen space (quality) 0.020, 0.20, 0.10, 0.027, 0.012, 0.026, 0.23, 0.019.
+constexpr std::array cases{Case{"total reflection", totalReflection, 0.005},
+                           Case{"volumes in one another", volumesInOneAnother, 0.01},
+                           Case{"dispersion", dispersion, 0.02},
+                           Case{"rough boundaries", roughBoundaries, 0.02},
+                           Case{"glass that is partly opaque", halfGlass, 0.01},
+                           Case{"many sheets", manySheets, 0.03},
+                           Case{"a mirror", mirror, 0.005},
+                           Case{"a ball", ball, 0.005}};
 
 // Of a case's part of the picture.
 double errorOf(unsigned index, const FloatImage& image, const FloatImage& truth) {
@@ -155,14 +155,14 @@ TEST(GlassPaths, AreThoseOfTheReference) {
     };
     const FloatImage paths = pictureOf("pathtrace", 32);
     const FloatImage still = pictureOf("still", 32);
-    const FloatImage layers = pictureOf("hybrid", 4);
+    const FloatImage hybrid = pictureOf("hybrid", 16);
     for (unsigned i = 0; i < cases.size(); ++i) {
         SCOPED_TRACE(cases.at(i).name);
         std::printf("%s: relative MSE %.5f, still %.5f, hybrid %.5f\n", cases.at(i).name, errorOf(i, paths, truth),
-                    errorOf(i, still, truth), errorOf(i, layers, truth));
+                    errorOf(i, still, truth), errorOf(i, hybrid, truth));
         EXPECT_LT(errorOf(i, paths, truth), cases.at(i).most);
         EXPECT_LT(errorOf(i, still, truth), cases.at(i).most);
-        EXPECT_GT(errorOf(i, layers, truth), cases.at(i).least);
+        EXPECT_LT(errorOf(i, hybrid, truth), 2.0 * cases.at(i).most);
     }
     expectSilentValidation("glass paths");
 }
