@@ -31,7 +31,8 @@ def masks():
     """Pixels of glass; those of them in which no other glass is behind the nearest; those of clear coats."""
     front, opaque = depth_of("transmission.layers=0"), depth_of("")
     size = len(front[0]), len(front)
-    single, both = (read_values(Glass("hybrid", s).exr, "G")[2] for s in ("transmission.layers=1", ""))
+    single, all_layers = (read_values(Glass("quality", s).exr, "G")[2] for s in ("transmission.layers=1", ""))
+    both = read_values(Glass("hybrid", "").exr, "G")[2]
     bare = read_values(Glass("hybrid", "materials.coats=false").exr, "G")[2]
 
     def glass(x, y):
@@ -42,7 +43,7 @@ def masks():
         return left <= x < left + width and top <= y < top + height and bare[y][x] != both[y][x]
 
     return (mask_of("all", size, glass),
-            mask_of("single", size, lambda x, y: glass(x, y) and single[y][x] == both[y][x]),
+            mask_of("single", size, lambda x, y: glass(x, y) and single[y][x] == all_layers[y][x]),
             mask_of("coat", size, coat))
 
 
@@ -52,8 +53,9 @@ def glass(page):
     everywhere, single, coat = masks()
     rows = []
     for preset, settings, name in (("balanced", "transmission.layers=0", "opaque"), ("balanced", "", "balanced"),
-                                   ("hybrid", "transmission.layers=0", None), ("hybrid", "transmission.layers=1", "one"),
-                                   ("hybrid", "transmission.exit_steps=0", "slab"), ("hybrid", "", "hybrid")):
+                                   ("quality", "transmission.layers=1", "one"),
+                                   ("quality", "transmission.exit_steps=0", "slab"), ("quality", "", None),
+                                   ("hybrid", "transmission.layers=0", None), ("hybrid", "", "hybrid")):
         frame = Glass(preset, settings)
         if name:
             page.picture(name, frame, PIECES, 2)

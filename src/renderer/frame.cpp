@@ -140,8 +140,9 @@ FrameImages renderFrame(gpu::PassList& f, FrameStore& own, const FrameInputs& in
                           {images.direct, diffuse, specular, images.fromEmitters, images.highlights}, layers, lit.next);
     light = withOtherSide(f, in, settings, seen, light);
     light = withCoats(f, in, settings, seen, light);
+    const gpu::Image opaque = light.lit;
     light = withBlended(f, blended.behindGlass, light);
-    light = throughGlass(f, in, settings, seen, light);
+    light = throughGlass(f, in, settings, seen, light, opaque);
     lighting::Light before = throughCameraMedium(f, in, settings, light);
     const lighting::Light complete = withBlended(f, blended.front, light);  // as other viewers see it
     light = in.medium ? withBlended(f, blended.front, before) : complete;

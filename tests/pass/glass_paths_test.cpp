@@ -167,5 +167,36 @@ TEST(GlassPaths, AreThoseOfTheReference) {
     expectSilentValidation("glass paths");
 }
 
+// A pane that covers half of what is behind it, behind a sheet of glass that does nothing, before a wall that shines.
+TEST(GlassPaths, MeetBlendedSurfacesOnce) {
+    Scene scene;
+    Material wall;
+    wall.baseColor = vec4(0, 0, 0, 1);
+    wall.emissive = vec3(1.0F);
+    Material black;
+    black.baseColor = vec4(0, 0, 0, 0.5F);
+    black.blended = true;
+    black.alphaCutoff = blendCutoff;
+    for (auto* m : {&wall, &black}) {
+        m->metallic = 0.0F;
+        m->specular = 0.0F;
+        m->doubleSided = true;
+    }
+    const Mesh square = builtin::patch({.right = {9, 0, 0}, .up = {0, 9, 0}});
+    add(scene, wall, square, at({0, 0, -2}));
+    add(scene, black, square, at({0, 0, -1}));
+    add(scene, glass(0.0F, 1.0F), square);
+    View view;
+    view.camera.position = {0, 0, 5};
+    Settings settings;
+    applyPreset(settings, "hybrid");
+    const Pictures p = render(scene, view, {24, 24}, settings, {"final"}, 16);
+    double sum = 0.0;
+    for (unsigned i = 0; i < 24 * 24; ++i) {
+        sum += p.value("final", i % 24, i / 24);
+    }
+    EXPECT_NEAR(sum / (24.0 * 24.0), 0.5, 0.03) << "a quarter if twice";
+}
+
 }  // namespace
 }  // namespace reflet::test::glass_paths_test

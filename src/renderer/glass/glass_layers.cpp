@@ -150,7 +150,7 @@ bool showsGlass(const ViewInputs& in, const Settings& settings) {
 }
 
 LightThroughGlass throughGlass(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
-                               const LightLayers& behind) {
+                               const LightLayers& behind, gpu::Image opaque) {
     LightThroughGlass sum{behind, {}};
     if (!showsGlass(in, settings)) {
         return sum;
@@ -165,7 +165,7 @@ LightThroughGlass throughGlass(gpu::PassList& f, const ViewInputs& in, const Set
         TracedView layer{seen.images, screen, {}};
         layer.images.g = peeled[i];
         layer.images.ambientOcclusion = {};
-        layer.screen.light = sum.light.lit;
+        layer.screen.light = opaque && refractsPaths(ofLayer, in) ? opaque : sum.light.lit;
         layer.screen.lit = {};
         layer.screen.lightMips = {};
         sum = addLayer(f, in, ofLayer, layer, i > 0 ? peeled[i - 1].depth : gpu::Image{}, sum.light);
@@ -174,8 +174,9 @@ LightThroughGlass throughGlass(gpu::PassList& f, const ViewInputs& in, const Set
 }
 
 lighting::Light throughGlass(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
-                             const lighting::Light& behind) {
-    const LightThroughGlass through = throughGlass(f, in, settings, seen, static_cast<const LightLayers&>(behind));
+                             const lighting::Light& behind, gpu::Image opaque) {
+    const LightThroughGlass through =
+        throughGlass(f, in, settings, seen, static_cast<const LightLayers&>(behind), opaque);
     lighting::Light out = behind;
     static_cast<LightLayers&>(out) = through.light;
     if (through.nearest.depth) {

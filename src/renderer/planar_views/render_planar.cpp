@@ -37,8 +37,9 @@ LightLayers reflectingLight(gpu::PassList& f, const ViewInputs& in, const Settin
         lighting::compose(f, contextOf(in, settings), settings, seen.images, {base, diffuse, specular}, false);
     light.direct = seen.images.direct;
     light = withCoats(f, in, settings, seen, light);
+    const gpu::Image opaque = light.lit;
     light = withBlended(f, blended.behindGlass, light);
-    light = throughGlass(f, in, settings, seen, light).light;
+    light = throughGlass(f, in, settings, seen, light, opaque).light;
     return withBlended(f, blended.front, light);
 }
 
