@@ -66,6 +66,8 @@ public:
     /// emitters: includes the lamps that replace small bright emitters.
     [[nodiscard]] LampBlock lamps(bool emitters) const;
     [[nodiscard]] const EmitterLamps& emitters() const { return *emitters_; }
+    /// A material as shaders have it. index: in the scene.
+    [[nodiscard]] MaterialParams paramsOf(const Material& material, uint32_t index) const;
     /// For ray hits: VertexAttributes and indices of all meshes, one after another; indices are relative to their mesh.
     [[nodiscard]] gpu::BufferView attributes() const { return attributes_.view(); }
     [[nodiscard]] gpu::BufferView indices() const { return indices_.view(); }
@@ -82,8 +84,6 @@ private:
     void uploadMaterials(const Scene& scene, const std::function<void(const std::string&)>& warn);
     std::optional<size_t> livePictureOf(const Scene& scene, const Material& material,
                                         const std::function<void(const std::string&)>& warn);
-    /// As the shaders have it now.
-    [[nodiscard]] MaterialParams paramsOf(const Material& material, uint32_t index) const;
     void poseMaterial(const Material& material, uint32_t index);
     void addLamps(const Scene& scene, const std::function<void(const std::string&)>& warn);
     void addDraws(const Scene& scene);

@@ -13,11 +13,13 @@ const uint allChannels = 3u;
 struct Media {
     uvec4 instances;  // the innermost first, then noInstance; of more than four the outermost is forgotten
     uint channel;     // red, green or blue: the one that is left after glass that disperses light; or allChannels
+    uint chosen;      // the one that such glass will leave
 };
 
-Media noMedia() { return Media(uvec4(noInstance), allChannels); }
+// chosen: uniform over the frames of a pixel, each in turn, which has less noise than chance.
+Media noMedia(uint chosen) { return Media(uvec4(noInstance), allChannels, chosen); }
 
-Media entered(Media m, uint instance) { return Media(uvec4(instance, m.instances.xyz), m.channel); }
+Media entered(Media m, uint instance) { return Media(uvec4(instance, m.instances.xyz), m.channel, m.chosen); }
 
 Media left(Media m, uint instance) {
     uvec4 outer = uvec4(m.instances.yzw, noInstance);
@@ -27,7 +29,7 @@ Media left(Media m, uint instance) {
                  : here.z ? uvec4(m.instances.xy, outer.zw)
                  : here.w ? uvec4(m.instances.xyz, noInstance)
                           : m.instances;
-    return Media(rest, m.channel);
+    return Media(rest, m.channel, m.chosen);
 }
 
 float dispersionOf(uint instance) {
@@ -121,17 +123,17 @@ GlassShares glassShares(Media m, SceneSurface s, float nv, inout Surface surface
 }
 
 // Leaves one channel of the path's light, with three times the weight, where the glass disperses it.
-vec3 disperse(SceneSurface s, inout Media m, inout uint random) {
+vec3 disperse(SceneSurface s, inout Media m) {
     if (!s.bounded || m.channel != allChannels || dispersionOf(s.instance) == 0.0) {
         return vec3(1.0);
     }
-    m.channel = min(uint(3.0 * nextRandom(random)), 2u);
+    m.channel = m.chosen;
     return 3.0 * vec3(equal(uvec3(m.channel), uvec3(0u, 1u, 2u)));
 }
 
 // Takes the path through the boundary, or reflects it on its own side. Returns the factor on its throughput.
 vec3 passGlass(LitPoint at, SceneSurface s, GlassShares shares, inout Media media, inout uint random, inout SceneRay ray) {
-    vec3 weight = disperse(s, media, random);
+    vec3 weight = disperse(s, media);
     Boundary b = boundaryAt(media, s);
     bool refracts = b.kind == boundaryOuter || b.kind == boundaryInner;
     bool straight = b.kind == boundaryNone || (refracts && abs(b.far / b.near - 1.0) < 1e-3);

@@ -214,9 +214,9 @@ void playRoulette(inout Path path, inout uint random) {
 }
 
 // Radiance along the ray from its hit. highlighted: of the ray. hitDistance: metres; negative: miss. told: gets the cells
-// that the path tells what it finds.
-vec3 followPath(SceneRay ray, bool highlighted, inout uint random, inout ToldCells told, out float hitDistance) {
-    Path path = Path(ray, vec3(0.0), vec3(1.0), lobe == lobeDiffuse, 0u, noMedia());
+// that the path tells what it finds. channel: of Media.chosen.
+vec3 followPath(SceneRay ray, bool highlighted, uint channel, inout uint random, inout ToldCells told, out float hitDistance) {
+    Path path = Path(ray, vec3(0.0), vec3(1.0), lobe == lobeDiffuse, 0u, noMedia(channel));
     hitDistance = -1.0;
     for (uint vertex = 0u;; ++vertex) {
         SceneHit hit;
@@ -240,6 +240,8 @@ vec3 followPath(SceneRay ray, bool highlighted, inout uint random, inout ToldCel
         bool lampsStandFor = path.diffuse || (highlighted && vertex == 0u);
         vec3 byLamps = anyEmitters != 0u && lampsStandFor && found.emitter ? params.view.preExposure * found.emissive : vec3(0.0);
         bool reuses = reuseScreen != 0u && (path.bounces == 0u || params.fromPrevious != 0u);
+        // A lens magnifies the screen's pixels: at rest, less and less of it.
+        reuses = reuses && (throughGlass != glassOfView || nextRandom(random) < 16.0 / (16.0 + float(params.own.rest)));
         vec3 shown;
         if (reuses && looksTheSame(found) && !isGlass(found) && screenLight(found, shown)) {
             return path.radiance + path.throughput * max(shown - byLamps, vec3(0.0));
@@ -275,10 +277,10 @@ vec3 followPath(SceneRay ray, bool highlighted, inout uint random, inout ToldCel
     }
 }
 
-vec3 radianceAlong(SceneRay ray, bool highlighted, inout uint random, out float hitDistance) {
+vec3 radianceAlong(SceneRay ray, bool highlighted, uint channel, inout uint random, out float hitDistance) {
     ToldCells told;
     told.count = 0u;
-    vec3 radiance = followPath(ray, highlighted, random, told, hitDistance);
+    vec3 radiance = followPath(ray, highlighted, channel, random, told, hitDistance);
     tellCells(told, radiance, random);
     return radiance;
 }

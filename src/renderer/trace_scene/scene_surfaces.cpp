@@ -118,8 +118,7 @@ SceneSurfaces::SceneSurfaces(gpu::Device& device, const Scene& scene, const GpuS
     data_ = data.upload(device, textureSize, warn);
     std::vector<SceneMaterial> materials;
     for (const Material& material : scene.materials) {
-        SceneMaterial m{materialParams(material), {}};
-        m.params.emitter = onDevice.emitters().standFor(static_cast<uint32_t>(materials.size())) ? 1U : 0U;
+        SceneMaterial m{onDevice.paramsOf(material, static_cast<uint32_t>(materials.size())), {}};
         const auto slots = textureSlots(material);
         for (uint32_t i = 0; i < sceneSlotCount; ++i) {
             if (!(isSrgb(i) ? colors : data).find(scene, *slots[i], m.textures[i])) {
@@ -145,10 +144,9 @@ void SceneSurfaces::pose(gpu::Device& device, const Scene& scene, const GpuScene
     if (!posedMaterials_.empty()) {
         for (const auto& [index, material] : now.properties.materials) {
             MaterialParams& params = posedMaterials_[index].params;
-            const MaterialParams before = params;
-            params = materialParams(material);
-            params.emitter = before.emitter;
-            params.textured = before.textured;
+            const uint32_t textured = params.textured;
+            params = onDevice.paramsOf(material, index);
+            params.textured = textured;
         }
         materials_ = gpu::uploadVector(device, posedMaterials_, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, "scene materials");
     }

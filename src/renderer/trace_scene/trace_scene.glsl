@@ -121,7 +121,8 @@ RayAnswer answerRay(inout WaitingRay w, Ray ray) {
     uint random = hashPixel(uvec2(w.slot.xy), stream, params.own.frame);
     float hitDistance;
     SceneRay traced = rayOfPixel(w.slot, ray);
-    vec3 radiance = radianceAlong(traced, ray.highlighted, random, hitDistance);
+    uint channel = (hashPixel(uvec2(w.slot.xy), stream, 0u) % 3u + params.own.frame) % 3u;
+    vec3 radiance = radianceAlong(traced, ray.highlighted, channel, random, hitDistance);
     if (hitDistance < 0.0) {
         w.lost = false;
         w.clear = largestHalf;  // known to hit nothing
