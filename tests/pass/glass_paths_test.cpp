@@ -74,7 +74,7 @@ void volumesInOneAnother(Scene& scene, const mat4& place) {
 
 void dispersion(Scene& scene, const mat4& place) {
     Material flint = glass(1.0F, 1.7F);
-    flint.transmission.dispersion = 3.0F;
+    flint.transmission.dispersion = 10.0F;
     add(scene, flint, builtin::box({0.8F, 0.8F, 0.4F}), place * turned(50));
 }
 
