@@ -42,7 +42,7 @@ vec3 patternAt(vec2 at) {
 
 // The pattern's mean over a pixel's area, moved by so many pixels.
 vec3 truthAt(uvec2 pixel, vec2 moved) {
-    constexpr int side = 16;
+    constexpr int side = 11;
     vec3 sum(0.0F);
     for (int i = 0; i < side * side; ++i) {
         const vec2 in = (vec2(i % side, i / side) + 0.5F) / float(side);
