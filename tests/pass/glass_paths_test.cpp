@@ -165,35 +165,56 @@ TEST(GlassPaths, AreThoseOfTheReference) {
     expectSilentValidation("glass paths");
 }
 
-// A pane that covers half of what is behind it, behind a sheet of glass that does nothing, before a wall that shines.
-TEST(GlassPaths, MeetBlendedSurfacesOnce) {
+// The mean of a picture of hybrid that these fill, before a wall of radiance 1.
+vec3 meanBefore(void (*fill)(Scene&, const Mesh&)) {
     Scene scene;
     Material wall;
     wall.baseColor = vec4(0, 0, 0, 1);
     wall.emissive = vec3(1.0F);
-    Material black;
-    black.baseColor = vec4(0, 0, 0, 0.5F);
-    black.blended = true;
-    black.alphaCutoff = blendCutoff;
-    for (auto* m : {&wall, &black}) {
-        m->metallic = 0.0F;
-        m->specular = 0.0F;
-        m->doubleSided = true;
-    }
+    wall.metallic = 0.0F;
+    wall.specular = 0.0F;
     const Mesh square = builtin::patch({.right = {9, 0, 0}, .up = {0, 9, 0}});
     add(scene, wall, square, at({0, 0, -2}));
-    add(scene, black, square, at({0, 0, -1}));
-    add(scene, glass(0.0F, 1.0F), square);
+    fill(scene, square);
     View view;
     view.camera.position = {0, 0, 5};
     Settings settings;
     applyPreset(settings, "hybrid");
-    const Pictures p = render(scene, view, {24, 24}, settings, {"final"}, 16);
-    double sum = 0.0;
-    for (unsigned i = 0; i < 24 * 24; ++i) {
-        sum += p.value("final", i % 24, i / 24);
+    constexpr unsigned side = 24;
+    const Pictures p = render(scene, view, uvec2(side), settings, {"final"}, 16);
+    vec3 sum(0.0F);
+    for (unsigned i = 0; i < side * side; ++i) {
+        sum += p.color("final", i % side, i / side);
     }
-    EXPECT_NEAR(sum / (24.0 * 24.0), 0.5, 0.03) << "a quarter if twice";
+    return sum / static_cast<float>(side * side);
+}
+
+// A black pane that covers half of what is behind it, behind a sheet of glass that does nothing.
+TEST(GlassPaths, MeetBlendedSurfacesOnce) {
+    const vec3 mean = meanBefore([](Scene& scene, const Mesh& square) {
+        Material black;
+        black.baseColor = vec4(0, 0, 0, 0.5F);
+        black.blended = true;
+        black.alphaCutoff = blendCutoff;
+        black.metallic = 0.0F;
+        black.specular = 0.0F;
+        add(scene, black, square, at({0, 0, -1}));
+        add(scene, glass(0.0F, 1.0F), square);
+    });
+    EXPECT_NEAR(mean.g, 0.5F, 0.03F) << "a quarter if twice";
+}
+
+// Green glass of which half is there.
+TEST(GlassPaths, OfBlendedGlassAreSeenAsFarAsItCovers) {
+    const vec3 mean = meanBefore([](Scene& scene, const Mesh& square) {
+        Material half = glass(0.0F, 1.0F, 0.0F, {0, 1, 0});
+        half.baseColor.a = 0.5F;
+        half.blended = true;
+        half.alphaCutoff = blendCutoff;
+        add(scene, half, square);
+    });
+    EXPECT_NEAR(mean.r, 0.5F, 0.02F);
+    EXPECT_NEAR(mean.g, 1.0F, 0.02F);
 }
 
 }  // namespace

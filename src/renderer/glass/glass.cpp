@@ -86,7 +86,7 @@ RefractedRays refractRays(gpu::PassList& f, const GBuffer& g, const GlassSurface
     return out;
 }
 
-RefractedRays raysToGlass(gpu::PassList& f, const GBuffer& g, const ViewParams& view) {
+RefractedRays raysToGlass(gpu::PassList& f, const GBuffer& g, const GlassSurfaces& glass, const ViewParams& view) {
     const uvec2 size = g.depth.size;
     RayGeneration generation{.from = {.g = g, .view = view}, .tiles = {}, .ggxTable = {}};
     generation.lobe = lobeSpecular;
@@ -95,6 +95,7 @@ RefractedRays raysToGlass(gpu::PassList& f, const GBuffer& g, const ViewParams& 
     out.rays.ofView = true;
     f.compute("rays_to_glass", "rays_to_glass.comp")
         .read("depth", g.depth)
+        .read("tint", glass.tint)
         .write("share", out.share)
         .write("direction", out.rays.direction)
         .write("answer", out.rays.answer)

@@ -88,8 +88,9 @@ struct Refraction {
 RefractedRays refractRays(gpu::PassList& f, const GBuffer& g, const GlassSurfaces& glass, gpu::Image ggxTable,
                           const Refraction& kinds, const RefractParams& params);
 
-/// The view ray of each pixel of the layer, from in front of it, for paths that refract it themselves.
-RefractedRays raysToGlass(gpu::PassList& f, const GBuffer& g, const ViewParams& view);
+/// The view ray of each pixel of the layer, from in front of it, for paths that are refracted where they go. The layer
+/// has its own light, tint and coverage; paths have neither.
+RefractedRays raysToGlass(gpu::PassList& f, const GBuffer& g, const GlassSurfaces& glass, const ViewParams& view);
 
 /// Radiance that the first ray of each pixel has been answered with, and its hit distance: RGBA16F.
 gpu::Image answersOf(gpu::PassList& f, const Rays& rays);

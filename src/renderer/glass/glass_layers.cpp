@@ -60,7 +60,7 @@ RefractedRays raysThrough(gpu::PassList& f, const ViewInputs& in, const Settings
                           const GlassSurfaces& made) {
     const GBuffer& g = seen.images.g;
     if (refractsPaths(settings, in)) {
-        RefractedRays rays = raysToGlass(f, g, in.view);
+        RefractedRays rays = raysToGlass(f, g, made, in.view);
         Settings byPaths = settings;
         byPaths.traceScreen.enabled = 0;
         answerRays(f, rays.rays, in, byPaths, seen);

@@ -1,4 +1,5 @@
-// View rays to a layer of glass. In: the layer's depth. Out: the list of rays and their directions; their share, which is 1.
+// View rays to a layer of glass. In: the layer's depth and tint. Out: the list of rays and their directions; their share, which is
+// the tint.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/lobe/rays.glsl"
@@ -8,6 +9,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { ViewParams params; };
 uniform sampler2D depth;
+uniform sampler2D tint;
 layout(rgba16f) uniform writeonly image2D share;
 layout(rg32ui) uniform writeonly uimage2DArray direction;
 layout(rgba16f) uniform writeonly image2DArray answer;
@@ -27,7 +29,7 @@ void main() {
         vec3 p = uvToWorld(pixelToUv(pixel, params.pixel), d, params.clipToWorld);
         Ray ray = Ray(-directionToEye(p, params.eye), 1.0, 1.0, 0.0, false);
         imageStore(direction, slot, uvec4(packRay(ray), 0u, 0u));
-        imageStore(share, pixel, vec4(1.0));
+        imageStore(share, pixel, vec4(texelFetch(tint, pixel, 0).rgb, 1.0));
         appendRay(WaitingRay(slot, 1.0, 0.0, false, vec3(0.0)));
     }
 }

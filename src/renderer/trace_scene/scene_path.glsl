@@ -233,7 +233,8 @@ vec3 followPath(SceneRay ray, bool highlighted, uint channel, inout uint random,
         float width = params.mips != 0u ? path.ray.width + path.ray.spread * hit.distance : 0.0;
         SceneSurface found = sceneSurface(hit, path.ray.direction, width);
         path.throughput *= throughGlass != glassStraight ? transmittance(path.media, hit.distance) : vec3(1.0);
-        if (isGlass(found) && found.coverage < 1.0 && nextRandom(random) >= found.coverage) {
+        bool ofLayer = throughGlass == glassOfView && vertex == 0u && found.transmissive;  // has coverage, tint and own light
+        if (!ofLayer && isGlass(found) && found.coverage < 1.0 && nextRandom(random) >= found.coverage) {
             path.ray.origin = found.position - found.geometricNormal * found.clearance;
             continue;
         }
@@ -250,20 +251,20 @@ vec3 followPath(SceneRay ray, bool highlighted, uint channel, inout uint random,
                                surfaceOf(found, -path.ray.direction));
         GlassShares shares = GlassShares(vec3(0.0), 0.0);
         if (isGlass(found)) {
+            found.passed = ofLayer ? vec3(1.0) : found.passed;
             shares = glassShares(path.media, found, dot(at.normal, at.toViewer), at.surface);
         }
-        bool knownLight = throughGlass == glassOfView && vertex == 0u && found.transmissive;
-        if (knownLight && !isGlass(found)) {
+        if (ofLayer && !isGlass(found)) {
             return vec3(0.0);
         }
-        if (!knownLight) {
+        if (!ofLayer) {
             path.radiance += path.throughput * lightOfHit(path, found, at, byLamps, random);
             CachedLight known = cachedLight(at, random);
             if (!isGlass(found) && endsHere(path.bounces, known, random)) {
                 return path.radiance + path.throughput * lightAtEnd(at, known);
             }
         }
-        scatterPath(path, found, at, shares, knownLight, random);
+        scatterPath(path, found, at, shares, ofLayer, random);
         path.ray.width = width;
         if (vertex + 1u >= rouletteStart) {
             playRoulette(path, random);
