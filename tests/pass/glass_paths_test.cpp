@@ -1,4 +1,4 @@
-// Glass on paths through the scene (presets hybrid and pathtrace), against the path tracer on the CPU: what lies
+// Glass on paths through the scene (trace_scene.enabled), against the path tracer on the CPU: what lies
 // behind total reflection, volumes in one another, dispersion, rough boundaries, sheets, and glass in mirrors.
 #include "compare/compare.h"
 #include "pass/harness.h"
@@ -60,7 +60,7 @@ constexpr unsigned cell = 16;  // pixels
 struct Case {
     const char* name;
     void (*add)(Scene&, const mat4& place);
-    double most;  // relative MSE of the paths, which is noise; twice that in hybrid
+    double most;  // relative MSE of the paths, which is noise
 };
 
 void totalReflection(Scene& scene, const mat4& place) {
@@ -148,24 +148,18 @@ TEST(GlassPaths, AreThoseOfTheReference) {
     ReferenceOptions options;
     options.samples = 256;
     const FloatImage truth = traceReference(scene, view, size, options).final;
-    const auto pictureOf = [&](const char* preset, uint32_t frames) {
-        Settings settings;
-        applyPreset(settings, preset);
-        return render(scene, view, size, settings, {"final"}, frames).images.at("final");
-    };
-    const FloatImage paths = pictureOf("pathtrace", 32);
-    const FloatImage hybrid = pictureOf("hybrid", 16);
+    Settings settings;
+    applyPreset(settings, "pathtrace");
+    const FloatImage paths = render(scene, view, size, settings, {"final"}, 32).images.at("final");
     for (unsigned i = 0; i < cases.size(); ++i) {
         SCOPED_TRACE(cases.at(i).name);
-        std::printf("%s: relative MSE %.5f, hybrid %.5f\n", cases.at(i).name, errorOf(i, paths, truth),
-                    errorOf(i, hybrid, truth));
+        std::printf("%s: relative MSE %.5f\n", cases.at(i).name, errorOf(i, paths, truth));
         EXPECT_LT(errorOf(i, paths, truth), cases.at(i).most);
-        EXPECT_LT(errorOf(i, hybrid, truth), 2.0 * cases.at(i).most);
     }
     expectSilentValidation("glass paths");
 }
 
-// The mean of a picture of hybrid that these fill, before a wall of radiance 1.
+// The mean of a picture that these fill, before a wall of radiance 1.
 vec3 meanBefore(void (*fill)(Scene&, const Mesh&)) {
     Scene scene;
     Material wall;
@@ -178,8 +172,8 @@ vec3 meanBefore(void (*fill)(Scene&, const Mesh&)) {
     fill(scene, square);
     View view;
     view.camera.position = {0, 0, 5};
-    Settings settings;
-    applyPreset(settings, "hybrid");
+    const Settings settings = settingsOf(
+        {"trace_scene.enabled=on", "diffuse.rays=0", "specular.rays=0", "temporal.enabled=on", "temporal.scale=1"});
     constexpr unsigned side = 24;
     const Pictures p = render(scene, view, uvec2(side), settings, {"final"}, 16);
     vec3 sum(0.0F);
