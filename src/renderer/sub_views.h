@@ -11,8 +11,8 @@ struct DrawList;
 Settings layerSettings(Settings settings);
 /// Layers of glass: rays read this frame's light, with the glass behind.
 Settings glassSettings(const Settings& settings, const DrawList& draws);
-/// Rays that a layer of glass has refracted: the screen first, which alone has the glass behind, also where other rays
-/// are for the scene alone.
+/// Rays that a layer of glass has refracted on the screen: the screen first, which alone has the glass behind, also
+/// where other rays are for the scene alone (from a camera in a medium; otherwise refractsPaths).
 Settings refractedSettings(Settings settings);
 /// Clear coats, which have no diffuse base.
 Settings coatSettings(const Settings& settings);
