@@ -34,6 +34,7 @@ void applyJitter(ViewParams& view, const vec2& jitter, const vec2& previousJitte
     view.worldToClip = move * view.worldToClip;
     view.previousWorldToClip = move * view.previousWorldToClip;
     view.clipToWorld = view.clipToWorld * back;
+    view.jitter = jitter;
     view.jitterChange = (jitter - previousJitter) * view.pixel;
 }
 

@@ -26,6 +26,7 @@ struct ViewParams {
     vec2 pixel;              // 1 / size
     vec2 jitterChange;  // uv: this frame's subpixel jitter minus the last frame's. The surface at uv was at uv - motion
                         // + jitterChange in the last frame's images
+    vec2 jitter;        // this frame's subpixel jitter, pixels: pixel centres show what is so far from them without it
     float pixelAngle;   // a pixel's height at distance 1 [m/m]; orthographic: at any distance [m]
     uint frame;         // counts up; decorrelates the noise of successive frames
     uint seed;          // random seed of the rendering

@@ -35,6 +35,7 @@ ViewParams makeViewParams(const Camera& camera, uvec2 size, const ViewParams& fr
 
 ViewParams resized(ViewParams view, uvec2 size) {
     view.pixelAngle *= view.size.y / static_cast<float>(size.y);
+    view.jitter *= vec2(size) / view.size;
     view.size = vec2(size);
     view.pixel = 1.0F / view.size;
     return view;

@@ -52,7 +52,7 @@ gpu::Image ambientOcclusion(gpu::PassList& f, DenoiseStore* own, const AoInputs&
         .read("lightDepth", from.scale > 1 ? from.g.depth : f.placeholder(VK_FORMAT_R32_SFLOAT))
         .read("lightNormal", from.scale > 1 ? from.g.normal : f.placeholder(VK_FORMAT_R32_UINT))
         .write("result", result)
-        .params(FinishAoParams{in.view, blockPixelOffset(from.scale)})
+        .params(FinishAoParams{in.view, blockPixelOffset(from.scale), light.shift})
         .dispatch(result.size);
     return result;
 }

@@ -58,6 +58,7 @@ SETTINGS(AoSettings, AO_SETTINGS)
 struct FinishAoParams {
     ViewParams view;
     uint blockOffset;  // traced pixel of a block, along each side
+    vec2 shift;        // LobeLight.shift
 };
 
 SHARED_END

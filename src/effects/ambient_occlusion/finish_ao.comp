@@ -33,7 +33,7 @@ struct Visibility {
 
 Visibility upsampled(Shown shown) {
     ivec2 size = imageSize(lightDepth);
-    Blocks b = blocksAt(shown, scale, params.blockOffset, size);
+    Blocks b = blocksAt(shown, scale, params.blockOffset, params.shift, size);
     float open = 0.0;
     float weights = 0.0;
     vec4 turning = vec4(0.0);

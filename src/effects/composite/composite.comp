@@ -4,10 +4,10 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/composite/composite.h"
+#include "effects/denoise/keeps_jitter.glsl"
 #include "effects/gbuffer/gbuffer_surface.glsl"
 #include "effects/import/bounded.glsl"
 #include "effects/lobe/upsample.glsl"
-#include "effects/lobe/upsample_specular.glsl"
 #include "shaders/directional_light.glsl"
 #include "shaders/half_float.glsl"
 #include "shaders/projection.glsl"
@@ -41,6 +41,7 @@ uniform usampler2D geometricNormal;
 layout(r32f) uniform readonly image2D diffuseDepth;
 layout(r32ui) uniform readonly uimage2D diffuseNormal;
 layout(rgba16f) uniform readonly image2D diffuseDirectional;
+#include "effects/lobe/upsample_specular.glsl"
 
 vec3 diffuseRadiance(Shown shown) {
     if (diffuseScale == 0u) {
@@ -51,7 +52,7 @@ vec3 diffuseRadiance(Shown shown) {
     }
     const bool turns = hasDirectional != 0u;
     ivec2 size = imageSize(diffuseDepth);
-    Blocks b = blocksAt(shown, diffuseScale, params.diffuseBlockOffset, size);
+    Blocks b = blocksAt(shown, diffuseScale, params.diffuseBlockOffset, params.diffuseShift, size);
     vec4 sum = vec4(0.0);
     vec4 directional = vec4(0.0);
     vec3 normals = vec3(0.0);
@@ -86,15 +87,12 @@ void main() {
         float nv = dot(n, directionToEye(p, params.view.eye));
         MaterialTexel m = unpackMaterial(texelFetch(material, pixel, 0));
         Surface s = surfaceAt(pixel, texelFetch(baseColor, pixel, 0).rgb, m, nv, ggxTable, lambertOnly != 0u);
-        Shown shown;
-        shown.pixel = pixel;
-        if (diffuseScale > 1u || specularScale > 1u) {
-            vec3 geometric = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
-            shown = Shown(pixel, d, n,
-                          screenPlane(p, geometric, params.view.clipToWorld, params.view.pixel, params.view.pixelAngle));
-        }
+        vec3 geometric = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
+        Shown shown = Shown(pixel, d, n, screenPlane(p, geometric, params.view.clipToWorld, params.view.pixel,
+                                                     params.view.pixelAngle));
         fromDiffuse = params.diffuseGain * (s.diffuse + s.sheenAlbedo) * diffuseRadiance(shown);
-        fromSpecular = s.specular * specularLight(shown, params.specularBlockOffset).rgb;
+        vec2 specularShift = (1.0 - keepsJitter(m.roughness)) * params.specularShift;
+        fromSpecular = s.specular * specularLight(shown, params.specularBlockOffset, specularShift).rgb;
     }
     vec3 all = imageLoad(direct, pixel).rgb;
     if (layers != 0u) {

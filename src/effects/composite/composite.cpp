@@ -19,6 +19,8 @@ LightLayers composite(gpu::PassList& f, const CompositeInputs& in, gpu::Image li
     const gpu::Image unwritten = in.layers ? lit : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT);
     params.diffuseBlockOffset = blockPixelOffset(in.diffuse.from.scale);
     params.specularBlockOffset = blockPixelOffset(in.specular.from.scale);
+    params.diffuseShift = in.diffuse.shift;
+    params.specularShift = in.specular.shift;
     gpu::ComputePass pass = f.compute("composite", "composite.comp");
     bindUpsampledSpecular(f, pass, in.specular);
     bindSurfaces(f, pass, in.g)

@@ -22,6 +22,8 @@ struct CompositeParams {
     float diffuseGain;        // factor on indirect diffuse light
     uint diffuseBlockOffset;  // traced pixel of a block, along each side (RaySurfaces)
     uint specularBlockOffset;
+    vec2 diffuseShift;  // LobeLight.shift
+    vec2 specularShift;
 };
 
 SHARED_END

@@ -136,6 +136,7 @@ LobeLight denoise(gpu::PassList& f, DenoiseStore* own, const LobeLight& light, u
     }
     LobeLight clean = light;
     clean.radiance = from;
+    clean.shift = settings.history > 0 ? picture.jitter : vec2(0.0F);
     clean.directional = turns ? directional : gpu::Image{};
     return clean;
 }

@@ -6,6 +6,7 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/lobe/ray_tiles.glsl"
 #include "effects/denoise/denoise.glsl"
+#include "effects/denoise/keeps_jitter.glsl"
 #include "effects/gbuffer/gbuffer.h"
 #include "shaders/noise.glsl"
 
@@ -54,9 +55,6 @@ const float sameThingRough = 3.0;
 // Maximum history length of moving reflections. A mirror's history is blurred by every interpolation and has no noise,
 // so it is short; rougher reflections have more noise than detail.
 const float framesInMotion = 1.0;
-// Up to the first roughness a reflection may show detail of a pixel's size, above the second none.
-const float mirrorLike = 0.05;
-const float blurred = 0.15;
 const float framesInMotionRough = 64.0;
 
 // This frame's light of the pixel and its neighbours on the same surface.
@@ -212,9 +210,8 @@ HistorySample historyAt(HistoryLookup w, KeptSurface own, ScreenPlane plane) {
         return noHistory;
     }
     float frames = sum.frames / weights;
-    // With jitter, what a mirror shows moves within its pixel: temporal antialiasing keeps its samples apart.
     bool jittered = params.view.jitterChange != vec2(0.0);
-    float sharp = w.away < 0.0 || !jittered ? 0.0 : 1.0 - smoothstep(mirrorLike, blurred, own.roughness);
+    float sharp = w.away < 0.0 || !jittered ? 0.0 : keepsJitter(own.roughness);
     float most = f == vec2(0.0) ? 1.0 / max(sharp, 1e-6) : w.most;
     return HistorySample(sum.light / weights, min(frames, most), sum.square / weights, sum.directional / weights);
 }

@@ -24,6 +24,7 @@ ViewParams viewOfBlocks(const ViewParams& view, uint32_t scale) {
     v.previousWorldToClip = toBlocks * view.previousWorldToClip;
     v.size = size;
     v.pixel = 1.0F / size;
+    v.jitter = view.jitter / s;
     return v;
 }
 

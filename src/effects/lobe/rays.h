@@ -192,6 +192,9 @@ struct LobeLight {
     gpu::Image imageMotion;
     /// RGBA16F: variation of the light with the normal (directional_light.glsl); none unless requested.
     gpu::Image directional;
+    /// Pixels of the picture: how far what a pixel shows is off what its light is of. Means over frames are of its
+    /// whole area, what it shows is of this frame's subpixel jitter.
+    vec2 shift{0.0F};
     bool dark = false;  ///< made by blackLobe: all black
 };
 

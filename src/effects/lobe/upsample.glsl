@@ -19,8 +19,9 @@ struct Blocks {
     vec4 weights;  // bilinear
 };
 
-Blocks blocksAt(Shown shown, uint scale, uint place, ivec2 size) {
-    vec2 at = vec2(shown.pixel - int(place)) / float(scale);
+// place: of the traced pixel within its block. shift: LobeLight.shift.
+Blocks blocksAt(Shown shown, uint scale, uint place, vec2 shift, ivec2 size) {
+    vec2 at = (vec2(shown.pixel - int(place)) + shift) / float(scale);
     Blocks b;
     b.corner = clamp(ivec2(floor(at)), ivec2(0), max(size - 2, ivec2(0)));
     vec2 f = clamp(at - vec2(b.corner), vec2(0.0), vec2(1.0));

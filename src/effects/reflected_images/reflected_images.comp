@@ -5,7 +5,6 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/gbuffer/gbuffer_surface.glsl"
 #include "effects/lobe/ray_tiles.glsl"
-#include "effects/lobe/upsample_specular.glsl"
 #include "effects/reflected_images/reflected_images.h"
 #include "shaders/luminance.glsl"
 #include "shaders/projection.glsl"
@@ -34,6 +33,8 @@ layout(scalar) readonly buffer ListBlock {
     uint count;
     uint items[];
 } list;
+
+#include "effects/lobe/upsample_specular.glsl"
 
 ivec2 last = ivec2(params.view.size) - 1;
 
@@ -121,7 +122,7 @@ void showImage(ivec2 pixel, float d, vec3 p, vec3 n, float nv, float reflectance
     vec3 geometric = unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r);
     Shown shown =
         Shown(pixel, d, n, screenPlane(p, geometric, params.view.clipToWorld, params.view.pixel, params.view.pixelAngle));
-    vec4 reflected = specularLight(shown, params.specularBlockOffset);
+    vec4 reflected = specularLight(shown, params.specularBlockOffset, vec2(0.0));
     ReflectedImage image = ReflectedImage(reflected.a, shareOf(reflected.rgb, reflectance, pixel), vec2(0.0));
     image = nearestImage(shown, image, reflectance);
     float z = max(depthToViewDistance(d, params.view.depthToDistance), 1e-6);
