@@ -95,8 +95,8 @@ protected:
     }
 
     /// The pictures of so many frames.
-    [[nodiscard]] std::vector<test::Pictures> picturesOf(uint32_t frames) const {
-        return test::renderPath(scene, std::vector<View>(frames, view), {36, 20}, settings, {"final"});
+    [[nodiscard]] std::vector<test::Pictures> picturesOf(uint32_t frames, uvec2 size = {36, 20}) const {
+        return test::renderPath(scene, std::vector<View>(frames, view), size, settings, {"final"});
     }
 
     static inline const Scene scene = findBuiltinScene("cornell")->make();
@@ -114,6 +114,23 @@ TEST_F(AtRest, PicturesConvergeBeyondTheHistoriesOfMotion) {
     const double at32 = errorAfter(32);
     const double at200 = errorAfter(200);
     EXPECT_LT(at200, 0.3 * at32) << at32;
+}
+
+// A frame's pixel is two by two of the picture: where light varies little, the steps from row to row are the same
+// within them and between them.
+TEST_F(AtRest, UpscaledLightHasNoStepsOfAFramesPixels) {
+    const FloatImage last = picturesOf(128, {96, 54}).back().images.at("final");
+    double within = 0.0;
+    double between = 0.0;
+    const size_t row = last.width * last.channels.size();
+    for (size_t i = 0; i + row < last.data.size(); ++i) {
+        const double step = std::abs(last.data[i + row] - last.data[i]);
+        if (step < 0.1 * last.data[i]) {  // not an edge
+            (i / row % 2 == 0 ? within : between) += step;
+        }
+    }
+    EXPECT_GT(within, 0.8 * between);
+    EXPECT_LT(within, 1.25 * between);
 }
 
 }  // namespace
