@@ -4,6 +4,8 @@
 #include "renderer/glass/glass.h"
 #include "renderer/trace_scene/trace_scene.h"
 
+#include <cmath>
+
 namespace reflet {
 
 namespace {
@@ -37,6 +39,13 @@ uint32_t throughGlass(const ViewInputs& in, const Settings& settings, const Rays
     return rays.ofView ? glassOfView : glassRefracts;
 }
 
+// Where each frame's paths have new noise, which the mean over frames at rest takes over.
+float hitRadius(const Settings& settings, const ViewInputs& in) {
+    const bool noisy = settings.traceScene.light == SceneHitLight::path && settings.denoise.enabled != 0;
+    constexpr float share = 0.5F;  // of the denoiser's: what is blurred in the first frames takes long to fade
+    return noisy ? share * settings.denoise.radius / std::sqrt(1.0F + static_cast<float>(in.view.rest)) : 0.0F;
+}
+
 }  // namespace
 
 bool refractsPaths(const Settings& settings, const ViewInputs& in) {
@@ -59,7 +68,8 @@ void traceSceneFallback(gpu::PassList& f, Rays& rays, const ViewInputs& in, cons
     const ProbeMaps none;
     traceScene(f, rays,
                {*in.traced, screen, seen.shadowMap, in.ggxTable, in.blueNoise, in.environment, in.lamps,
-                all ? in.probes : none, all ? in.cache : CacheBuffers{}, throughGlass(in, settings, rays)},
+                all ? in.probes : none, all ? in.cache : CacheBuffers{}, throughGlass(in, settings, rays),
+                hitRadius(settings, in)},
                sunShadowsAtHits(settings, seen),
                {.own = rays.from.view,
                 .view = in.view,

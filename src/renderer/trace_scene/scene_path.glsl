@@ -180,6 +180,8 @@ struct Path {
     Media media;
 };
 
+#include "renderer/trace_scene/split_hit.glsl"
+
 bool isGlass(SceneSurface s) { return throughGlass != glassStraight && s.transmission > 0.0; }
 
 // Radiance of the hit toward the path without that of further bounces. byLamps: emission that lamps stand for.
@@ -214,8 +216,9 @@ void playRoulette(inout Path path, inout uint random) {
 }
 
 // Radiance along the ray from its hit. highlighted: of the ray. hitDistance: metres; negative: miss. told: gets the cells
-// that the path tells what it finds. channel: of Media.chosen.
-vec3 followPath(SceneRay ray, bool highlighted, uint channel, inout uint random, inout ToldCells told, out float hitDistance) {
+// that the path tells what it finds. channel: of Media.chosen. split: if it is followed, the radiance is of what is split.
+vec3 followPath(SceneRay ray, bool highlighted, uint channel, inout uint random, inout ToldCells told, inout SplitHit split,
+                out float hitDistance) {
     Path path = Path(ray, vec3(0.0), vec3(1.0), lobe == lobeDiffuse, 0u, noMedia(channel));
     hitDistance = -1.0;
     for (uint vertex = 0u;; ++vertex) {
@@ -264,8 +267,10 @@ vec3 followPath(SceneRay ray, bool highlighted, uint channel, inout uint random,
                 return path.radiance + path.throughput * lightAtEnd(at, known);
             }
         }
+        Path before = path;
         scatterPath(path, found, at, shares, ofLayer, random);
         path.ray.width = width;
+        splitPath(path, before, at, split);
         if (vertex + 1u >= rouletteStart) {
             playRoulette(path, random);
         }
@@ -278,12 +283,16 @@ vec3 followPath(SceneRay ray, bool highlighted, uint channel, inout uint random,
     }
 }
 
-vec3 radianceAlong(SceneRay ray, bool highlighted, uint channel, inout uint random, out float hitDistance) {
+// hitLight: what is split, without its factor; the radiance is without it.
+vec3 radianceAlong(SceneRay ray, bool highlighted, uint channel, inout uint random, out SplitHit split, out vec3 hitLight,
+                   out float hitDistance) {
     ToldCells told;
     told.count = 0u;
-    vec3 radiance = followPath(ray, highlighted, channel, random, told, hitDistance);
+    split = noSplit();
+    vec3 radiance = followPath(ray, highlighted, channel, random, told, split, hitDistance);
     tellCells(told, radiance, random);
-    return radiance;
+    hitLight = split.followed ? radiance : vec3(0.0);
+    return split.followed ? split.radiance : radiance;
 }
 
 #endif

@@ -2,6 +2,7 @@
 #include "renderer/trace_scene/trace_scene.h"
 
 #include "gpu/context.h"
+#include "renderer/trace_scene/smooth_hits.h"
 
 namespace reflet {
 
@@ -16,6 +17,8 @@ void traceScene(gpu::PassList& f, Rays& rays, const TraceSceneInputs& in, uint32
     const CacheBuffers cache =
         in.cache ? in.cache
                  : CacheBuffers{f.buffer("no_keys", sizeof(uint32_t)), f.buffer("no_cells", sizeof(CacheCell))};
+    const bool splits = in.hitRadius >= 1.0F && rays.lobe == lobeSpecular;
+    const SplitHits hits = splitHits(f, rays, splits);
     gpu::ComputePass pass = f.compute("trace_scene", in.scene.rays.shader("trace_scene"));
     bindRayOrigins(f, pass, rays);
     in.scene.rays.bind(pass);
@@ -33,6 +36,7 @@ void traceScene(gpu::PassList& f, Rays& rays, const TraceSceneInputs& in, uint32
         .constant("anyReflected", anyReflected(in.lamps) ? 1U : 0U)
         .constant("endsInProbes", in.probes ? 1U : 0U)
         .constant("endsInCache", in.cache ? 1U : 0U)
+        .constant("splitsHits", splits ? 1U : 0U)
         .write("cacheKeys", cache.keys)
         .write("cacheCells", cache.cells)
         .read("probeLobes", in.probes ? in.probes.lobes : in.environment.lobes, linear)
@@ -54,12 +58,18 @@ void traceScene(gpu::PassList& f, Rays& rays, const TraceSceneInputs& in, uint32
         .read("waiting", rays.waiting)
         .write("answer", rays.answer)
         .write("source", rays.source)
+        .write("hitLight", hits.light)
+        .write("hitFactor", hits.factor)
+        .write("hitNormal", hits.normal)
         .write("imageMotion", tellsMotion ? rays.imageMotion : f.placeholder(VK_FORMAT_R16G16_SFLOAT))
         .write("missed", missed)
         .params(params)
         .params(in.lamps, "lampBlock")
         .dispatchIndirect(rays.waiting, 0);
     rays.waiting = missed;
+    if (splits) {
+        smoothHits(f, rays, hits, in.hitRadius);
+    }
 }
 
 }  // namespace reflet

@@ -44,6 +44,9 @@ layout(rg32ui) uniform readonly uimage2DArray direction;
 #include "effects/lobe/rays_waiting.glsl"
 layout(rgba16f) uniform image2DArray answer;
 layout(rgba8) uniform image2DArray source;
+layout(rgba16f) uniform writeonly image2DArray hitLight;
+layout(rgba16f) uniform writeonly image2DArray hitFactor;
+layout(r32ui) uniform writeonly uimage2DArray hitNormal;
 #include "effects/lobe/rays_answer.glsl"
 #include "effects/lobe/rays_append.glsl"
 
@@ -122,7 +125,9 @@ RayAnswer answerRay(inout WaitingRay w, Ray ray) {
     float hitDistance;
     SceneRay traced = rayOfPixel(w.slot, ray);
     uint channel = (hashPixel(uvec2(w.slot.xy), stream, 0u) % 3u + params.own.frame) % 3u;
-    vec3 radiance = radianceAlong(traced, ray.highlighted, channel, random, hitDistance);
+    SplitHit split;
+    vec3 lightThere;
+    vec3 radiance = radianceAlong(traced, ray.highlighted, channel, random, split, lightThere, hitDistance);
     if (hitDistance < 0.0) {
         w.lost = false;
         w.clear = largestHalf;  // known to hit nothing
@@ -130,6 +135,11 @@ RayAnswer answerRay(inout WaitingRay w, Ray ray) {
     }
     if (tellsMotion != 0u && w.slot.z == 0) {
         writeReflectionMotion(w.slot.xy, traced, hitDistance);
+    }
+    if (splitsHits != 0u && split.known) {
+        imageStore(hitLight, w.slot, vec4(clampToHalf(lightThere), 1.0));
+        imageStore(hitFactor, w.slot, vec4(clampToHalf(w.rest * split.factor), min(split.away, largestHalf)));
+        imageStore(hitNormal, w.slot, uvec4(packUnitVector(split.normal)));
     }
     return RayAnswer(radiance, 1.0, hitDistance);
 }

@@ -111,6 +111,7 @@ struct TraceSceneInputs {
     const ProbeMaps& probes;  ///< if there are any, they bring the light of further bounces where a path ends
     CacheBuffers cache;       ///< before them, if there is one; it learns from the paths
     uint32_t throughGlass = glassStraight;
+    float hitRadius = 0.0F;  ///< of smoothHits; below 1: off
 };
 
 /// Hits get confidence 1. Misses stay in rays.waiting, marked as known misses, and so do rays beyond the budget and
