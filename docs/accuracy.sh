@@ -6,6 +6,7 @@
 #     docs/accuracy.sh            makes the whole page
 #     docs/accuracy.sh presets    only the first section, "All bounces"
 #     docs/accuracy.sh stills     only the section "Stills", against references of 4096 samples: the first time, an hour more
+#     docs/accuracy.sh convergence  only the section "Over frames at rest": half an hour more
 #     docs/accuracy.sh tables     all but the last two sections, "Shadows" and "Sources"
 #     docs/accuracy.sh shadows    only the last two sections
 #     docs/accuracy.sh sources    only the last section
@@ -53,6 +54,31 @@ if [[ ${1:-} == stills ]]; then
     {
         sed '/^## Stills$/,$d' docs/accuracy.md
         stills
+        echo
+        sed -n '/^## Over frames at rest$/,$p' docs/accuracy.md
+    } >"$table"
+    cp "$table" docs/accuracy.md
+    exit
+fi
+
+# Error of frames at rest, down to the bias of each preset.
+convergence() {
+    local folder=out/accuracy-convergence pictures=docs/pictures/convergence scene
+    mkdir -p "$folder" "$pictures"
+    printf '## Over frames at rest\n\n'
+    for scene in cornell cave gloss colonnade mirror-hall lens moving; do
+        [[ -f $folder/$scene.json ]] ||
+            "$reflet" bench "builtin:$scene" --preset fast,balanced,quality,hybrid,still --size 160x90 \
+                --convergence 32,128,512,2048 --truth-spp 4096 --first 1 --warmup 1 --frames 1 --no-bandwidth \
+                --plot "$pictures/$scene.svg" --json "$folder/$scene.json" >&2
+    done
+    docs/accuracy_convergence.py "$folder"
+}
+
+if [[ ${1:-} == convergence ]]; then
+    {
+        sed '/^## Over frames at rest$/,$d' docs/accuracy.md
+        convergence
         echo
         sed -n '/^## Tracing methods$/,$p' docs/accuracy.md
     } >"$table"
@@ -143,6 +169,8 @@ TEXT
         sed -n '/^## Stills$/,$p' docs/accuracy.md
     else
         stills
+        echo
+        convergence
         otherSections "$@"
     fi
 } >"$table"

@@ -148,57 +148,6 @@ def pixels_and_triangles(folder, targets):
     targets.add(what, "within 5 %", f"{ms(a)} and {ms(b)} ms; {100 * (b / a - 1):+.1f} %", abs(b / a - 1) <= 0.05)
 
 
-def rest(folder, targets):
-    data = load(folder, "rest")
-    what, limit = "mean FLIP against the same settings with 1024 rays (measured: 256), frame 32, worst scene", "under 0.02"
-    if data is None:
-        targets.missing(what, limit)
-        return
-    flips = {short(run["scene"]): run["steady"]["error"]["displayed_flip"] for run in data["runs"]}
-    worst = max(flips, key=flips.get)
-    under = sum(flip < 0.02 for flip in flips.values())
-    targets.add(what, limit, f"{flips[worst]:.4f} (`{worst}`); met in {under} of {len(flips)} scenes", under == len(flips))
-
-
-def motion(folder, targets):
-    data = load(folder, "motion")
-    flips = "mean FLIP in motion (60 frames), relative to that at rest, worst scene"
-    flicker = "flicker, relative to the reference's, worst scene"
-    if data is None:
-        targets.missing(flips, "1.5")
-        targets.missing(flicker, "1.3")
-        return
-
-    def flip_ratio(run):
-        flips = run["motion"]["displayed_flip"]
-        return sum(flips) / len(flips) / run["steady"]["error"]["displayed_flip"]
-
-    def flicker_ratio(run):
-        return run["motion"]["flicker"] / run["motion"]["truth_flicker"]
-    for what, limit, of in ((flips, 1.5, flip_ratio), (flicker, 1.3, flicker_ratio)):
-        worst = max(data["runs"], key=of)
-        targets.add(what, str(limit), f"{of(worst):.2f} (`{short(worst['scene'])}`)", of(worst) <= limit)
-
-
-def stop(folder, targets):
-    what, limit = "reflections 8 frames after motion has stopped, against their final value", "within 5 %"
-    data = load(folder, "stop")
-    if data is None:
-        targets.missing(what, limit)
-        return
-    off = data["runs"][0]["motion"]["rest"][7]
-    targets.add(what, limit, f"{100 * off:.1f} % (`{short(data['runs'][0]['scene'])}`)", off <= 0.05)
-
-
-def motion_table(data):
-    lines = ["| scene | FLIP at rest | in motion: mean | maximum | flicker | flicker of the reference |", "|---|--:|--:|--:|--:|--:|"]
-    for run in data["runs"]:
-        flips = run["motion"]["displayed_flip"]
-        lines.append(f"| {short(run['scene'])} | {run['steady']['error']['displayed_flip']:.4f} | {sum(flips) / len(flips):.4f} | "
-                     f"{max(flips):.4f} | {run['motion']['flicker']:.5f} | {run['motion']['truth_flicker']:.5f} |")
-    return "\n".join(lines)
-
-
 def gpu(folder, targets):
     data = load(folder, "gpu")
     limits = (("specular", 0.5), ("diffuse", 0.5))
@@ -334,7 +283,7 @@ def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else os.path.join(ROOT, "out", "performance")
     notes = read_notes()
     targets = Targets()
-    for add in (against_games202, mirror, shadow, pixels_and_triangles, rest, motion, stop, gpu):
+    for add in (against_games202, mirror, shadow, pixels_and_triangles, gpu):
         add(folder, targets)
     presets = load(folder, "presets")
     parts = ["# Performance", "What a frame costs and how far it is from the reference.",
@@ -356,11 +305,6 @@ def main():
         data = [d for d in (load(folder, name) for name in names) if d]
         if data:
             parts.append(section(heading, "\n\n".join([text] + [frames_table(d) for d in data]), notes))
-    if moved := load(folder, "motion"):
-        parts.append(section("In motion", "60 frames in which the camera orbits and the scene's animations play, each against "
-                             "a reference of its own. FLIP is that of the tone-mapped images; flicker is the mean difference to the reprojected "
-                             "previous frame.\n\n"
-                             + motion_table(moved), notes))
     for name, heading in (("sizes", "Time per pass against memory bandwidth"),
                           ("gpu", "Time per pass against memory bandwidth on a GPU")):
         data = load(folder, name)

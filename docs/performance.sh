@@ -72,16 +72,6 @@ if [[ ${1:-} != page ]]; then
         --warmup 2 --frames 5
     measure triangles-100 builtin:tessellated-100 --preset "$preset" --size 1280x720 --truth none
     measure triangles-1000000 builtin:tessellated-1000000 --preset "$preset" --size 1280x720 --truth none
-    # At rest.
-    # shellcheck disable=SC2086  # a word for each scene
-    measure rest $all_scenes --preset "$preset" --size 320x180 --truth chain:256 --first 1 --warmup 26 --frames 5
-    # In motion.
-    # shellcheck disable=SC2086  # a word for each scene
-    measure motion builtin:cubes builtin:mirror-hall builtin:moving --preset "$preset" --size 320x180 --truth chain:32 \
-        --first 1 --motion 60 --orbit 30
-    # Reflections after motion stops, without TAA: its subpixel jitter changes their edges even at rest.
-    measure stop builtin:moving --preset "$preset" --set temporal.enabled=false --size 240x135 --truth chain:1 --first 1 \
-        --frames 1 --motion 12 --orbit 0 --rest 10
 fi
 
 docs/performance.py "$out"

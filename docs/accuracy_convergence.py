@@ -1,0 +1,26 @@
+#!/usr/bin/env python3
+"""Prints tables and plots of the section "Over frames at rest" of docs/accuracy.md from the folder's files of `reflet bench`;
+called by docs/accuracy.sh. Needs Python's standard library."""
+import json
+import pathlib
+import sys
+
+SCENES = ["cornell", "cave", "gloss", "colonnade", "mirror-hall", "lens", "moving"]
+
+folder = pathlib.Path(sys.argv[1])
+print("""Relative MSE and FLIP of the picture after so many frames of a still view, 160x90, against references of 4096 samples
+(`docs/accuracy.sh convergence`). What is left after 2048 frames is nearly all the preset's own error, its bias.
+""")
+frames = []
+for scene in SCENES:
+    for run in json.loads((folder / f"{scene}.json").read_text())["runs"]:
+        points = run["convergence"]
+        if not frames:
+            frames = [point["frame"] for point in points]
+            print("| scene | preset | " + " | ".join(map(str, frames)) + " |")
+            print("|---|---|" + "--:|" * len(frames))
+        cells = [f"{point['relative_mse']:.4f}, {point['flip']:.3f}" for point in points]
+        print(f"| {scene} | `{run['variant']}` | " + " | ".join(cells) + " |")
+print()
+for scene in SCENES:
+    print(f"![{scene}: relative MSE over frames, for each preset](pictures/convergence/{scene}.svg)")
