@@ -6,7 +6,7 @@
 #     docs/accuracy.sh            makes the whole page
 #     docs/accuracy.sh presets    only the first section, "All bounces"
 #     docs/accuracy.sh stills     only the section "Stills", against references of 4096 samples: the first time, an hour more
-#     docs/accuracy.sh convergence  only the section "Over frames at rest": half an hour more
+#     docs/accuracy.sh convergence  only the section "Over frames at rest": a quarter of an hour
 #     docs/accuracy.sh tables     all but the last two sections, "Shadows" and "Sources"
 #     docs/accuracy.sh shadows    only the last two sections
 #     docs/accuracy.sh sources    only the last section
@@ -69,7 +69,7 @@ convergence() {
     for scene in cornell cave gloss colonnade mirror-hall lens moving; do
         [[ -f $folder/$scene.json ]] ||
             "$reflet" bench "builtin:$scene" --preset fast,balanced,quality,hybrid,still --size 160x90 \
-                --convergence 32,128,512,2048 --truth-spp 4096 --first 1 --warmup 1 --frames 1 --no-bandwidth \
+                --convergence 32,128,512 --truth-spp 1024 --first 1 --warmup 1 --frames 1 --no-bandwidth \
                 --plot "$pictures/$scene.svg" --json "$folder/$scene.json" >&2
     done
     docs/accuracy_convergence.py "$folder"

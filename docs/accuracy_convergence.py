@@ -8,8 +8,8 @@ import sys
 SCENES = ["cornell", "cave", "gloss", "colonnade", "mirror-hall", "lens", "moving"]
 
 folder = pathlib.Path(sys.argv[1])
-print("""Relative MSE and FLIP of the picture after so many frames of a still view, 160x90, against references of 4096 samples
-(`docs/accuracy.sh convergence`). What is left after 2048 frames is nearly all the preset's own error, its bias.
+print("""Relative MSE and FLIP of the picture after so many frames of a still view, 160x90, against references of 1024 samples
+(`docs/accuracy.sh convergence`). What is left after 512 frames is nearly all the preset's own error, its bias.
 """)
 frames = []
 for scene in SCENES:
