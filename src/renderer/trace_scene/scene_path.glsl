@@ -215,6 +215,14 @@ void playRoulette(inout Path path, inout uint random) {
     path.throughput = nextRandom(random) < survival ? path.throughput / survival : vec3(0.0);
 }
 
+// Whether the path takes the light on the screen for that of its hit.
+bool endsOnScreen(Path path, SceneSurface found, inout uint random, out vec3 shown) {
+    bool reuses = reuseScreen != 0u && (path.bounces == 0u || params.fromPrevious != 0u);
+    // A lens magnifies the screen's pixels: at rest, less and less of it.
+    reuses = reuses && (throughGlass != glassOfView || nextRandom(random) < 16.0 / (16.0 + float(params.own.rest)));
+    return reuses && looksTheSame(found) && !isGlass(found) && screenLight(found, shown);
+}
+
 // Radiance along the ray from its hit. highlighted: of the ray. hitDistance: metres; negative: miss. told: gets the cells
 // that the path tells what it finds. channel: of Media.chosen. split: if it is followed, the radiance is of what is split.
 vec3 followPath(SceneRay ray, bool highlighted, uint channel, inout uint random, inout ToldCells told, inout SplitHit split,
@@ -243,11 +251,8 @@ vec3 followPath(SceneRay ray, bool highlighted, uint channel, inout uint random,
         }
         bool lampsStandFor = path.diffuse || (highlighted && vertex == 0u);
         vec3 byLamps = anyEmitters != 0u && lampsStandFor && found.emitter ? params.view.preExposure * found.emissive : vec3(0.0);
-        bool reuses = reuseScreen != 0u && (path.bounces == 0u || params.fromPrevious != 0u);
-        // A lens magnifies the screen's pixels: at rest, less and less of it.
-        reuses = reuses && (throughGlass != glassOfView || nextRandom(random) < 16.0 / (16.0 + float(params.own.rest)));
         vec3 shown;
-        if (reuses && looksTheSame(found) && !isGlass(found) && screenLight(found, shown)) {
+        if (endsOnScreen(path, found, random, shown)) {
             return path.radiance + path.throughput * max(shown - byLamps, vec3(0.0));
         }
         LitPoint at = LitPoint(found.position, found.geometricNormal, found.normal, -path.ray.direction, found.clearance,
