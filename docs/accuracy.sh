@@ -66,7 +66,7 @@ convergence() {
     local folder=out/accuracy-convergence pictures=docs/pictures/convergence scene
     mkdir -p "$folder" "$pictures"
     printf '## Over frames at rest\n\n'
-    for scene in cornell cave gloss colonnade mirror-hall lens moving; do
+    for scene in cornell cave gloss mirror-hall; do
         [[ -f $folder/$scene.json ]] ||
             "$reflet" bench "builtin:$scene" --preset fast,balanced,quality,hybrid,still --size 160x90 \
                 --convergence 32,128,512 --truth-spp 1024 --first 1 --warmup 1 --frames 1 --no-bandwidth \

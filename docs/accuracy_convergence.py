@@ -5,7 +5,7 @@ import json
 import pathlib
 import sys
 
-SCENES = ["cornell", "cave", "gloss", "colonnade", "mirror-hall", "lens", "moving"]
+SCENES = ["cornell", "cave", "gloss", "mirror-hall"]
 
 folder = pathlib.Path(sys.argv[1])
 print("""Relative MSE and FLIP of the picture after so many frames of a still view, 160x90, against references of 1024 samples

@@ -173,6 +173,8 @@ void compareAquarium(float ior) {
     settings.probes.enabled = 0;
     settings.temporal.enabled = 0;
     settings.denoise.enabled = 0;
+    settings.specular.maxRoughness = 0.4F;  // rougher surfaces without noise
+    settings.specular.roughFallback = RoughFallback::mips;
     const Scene scene = aquarium(ior);
     const FloatImage truth = traceReference(scene, view, size, {.samples = 64, .filter = PixelFilter::center}).final;
     const Pictures p = render(scene, view, size, settings, {"final"});

@@ -5,6 +5,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/denoise/denoise.glsl"
+#include "shaders/blur_disk.glsl"
 #include "shaders/ggx.glsl"
 #include "shaders/noise.glsl"
 
@@ -25,8 +26,6 @@ layout(rgba16f) uniform writeonly image2D nextDirectional;
 layout(rgba16f) uniform writeonly image2D blurredDirectional;
 
 const int taps = 8;
-// Cosine and sine of the golden angle, from each tap to the next.
-const vec2 goldenTurn = vec2(-0.737368878, 0.675490294);
 // Radius within which incoming light is about the same, relative to the lobe's width at the hit; diffuse: to the harmonic mean
 // of the distances (0.3: 12 % more relative MSE in builtin:cave at frame 32).
 const float shareOfWay = 0.3;
@@ -102,9 +101,9 @@ void main() {
     // Below half a pixel nothing changes. The trip count is dynamic on purpose: see hardVisibility (shadow_map.glsl).
     int count = radius < 0.5 ? 0 : taps;
     for (int i = 0; i < count; ++i) {
-        float reach = sqrt((float(i) + 0.5) / float(taps));
+        float reach = tapReach(i, taps);
         ivec2 at = pixel + ivec2(round(reach * spoke));
-        spoke = vec2(spoke.x * goldenTurn.x - spoke.y * goldenTurn.y, spoke.x * goldenTurn.y + spoke.y * goldenTurn.x);
+        spoke = nextSpoke(spoke);
         if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size))) {
             continue;
         }
@@ -113,7 +112,7 @@ void main() {
         if (there.depth > 0.0 && onSurface(plane, o, there.depth - own.depth)) {
             float same = hasDirectional != 0u ? normalSimilarity(own, there) : surfaceSimilarity(own, there, lobe);
             same *= lobe == 0u ? 1.0 : reflectsAlike(own, there);
-            float weight = exp(-1.5 * reach * reach) * same * trust(imageLoad(moments, at).x);
+            float weight = tapWeight(reach) * same * trust(imageLoad(moments, at).x);
             sum += weight * imageLoad(from, at);
             if (hasDirectional != 0u) {
                 turning += weight * imageLoad(directional, at);

@@ -4,6 +4,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "renderer/trace_scene/smooth_hits.h"
+#include "shaders/blur_disk.glsl"
 #include "shaders/half_float.glsl"
 #include "shaders/noise.glsl"
 #include "shaders/octahedral.glsl"
@@ -16,7 +17,6 @@ layout(r32ui) uniform readonly uimage2DArray hitNormal;
 layout(rgba16f) uniform image2DArray answer;
 
 const int taps = 16;
-const vec2 goldenTurn = vec2(-0.737368878, 0.675490294);  // cosine and sine of the golden angle
 const float sameDistance = 0.05;  // relative
 
 void main() {
@@ -36,16 +36,16 @@ void main() {
     vec2 spoke = params.radius * vec2(cos(turn), sin(turn));
     vec4 sum = light;
     for (int i = 0; i < taps; ++i) {
-        float reach = sqrt((float(i) + 0.5) / float(taps));
+        float reach = tapReach(i, taps);
         ivec2 at = pixel + ivec2(round(reach * spoke));
-        spoke = vec2(spoke.x * goldenTurn.x - spoke.y * goldenTurn.y, spoke.x * goldenTurn.y + spoke.y * goldenTurn.x);
+        spoke = nextSpoke(spoke);
         ivec3 other = ivec3(at, slot.z);
         vec4 there = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, size)) ? imageLoad(hitLight, other) : vec4(0.0);
         if (there.a > 0.0) {
             float away = imageLoad(hitFactor, other).a;
             float facing = max(dot(unpackUnitVector(imageLoad(hitNormal, other).r), normal), 0.0);
             float same = exp2(-abs(away - factor.a) / (sameDistance * max(max(away, factor.a), 1e-6)));
-            sum += exp(-1.5 * reach * reach) * pow(facing, 8.0) * same * there;
+            sum += tapWeight(reach) * pow(facing, 8.0) * same * there;
         }
     }
     vec4 found = imageLoad(answer, slot);
