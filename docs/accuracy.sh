@@ -46,8 +46,8 @@ stills() {
             LC_ALL=C awk -v scene="$scene" '/"relative_mse"/ { error = $2 + 0 } /"flip"/ { flip = $2 + 0 }
                 END { printf "| %s | %.4f | %.3f |\n", scene, error, flip }'
     done
-    printf '\nWhat is left: in cave, few frames in the time, so that fine relief is blurred; in mirror-hall, grain in what mirrors show of\n'
-    printf 'shaded things; in lens, depth of field as an effect on the picture, where glass is in front of the focus.\n'
+    printf '\nWhat is left: in cave, few frames in the time, so that fine relief is blurred;\n'
+    printf 'in lens, depth of field as an effect on the picture, where glass is in front of the focus.\n'
 }
 
 if [[ ${1:-} == stills ]]; then
