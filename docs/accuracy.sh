@@ -50,17 +50,6 @@ stills() {
     printf 'in lens, depth of field as an effect on the picture, where glass is in front of the focus.\n'
 }
 
-if [[ ${1:-} == stills ]]; then
-    {
-        sed '/^## Stills$/,$d' docs/accuracy.md
-        stills
-        echo
-        sed -n '/^## Over frames at rest$/,$p' docs/accuracy.md
-    } >"$table"
-    cp "$table" docs/accuracy.md
-    exit
-fi
-
 # Error of frames at rest, down to the bias of each preset.
 convergence() {
     local folder=out/accuracy-convergence pictures=docs/pictures/convergence scene
@@ -75,13 +64,20 @@ convergence() {
     docs/accuracy_convergence.py "$folder"
 }
 
-if [[ ${1:-} == convergence ]]; then
-    {
-        sed '/^## Over frames at rest$/,$d' docs/accuracy.md
-        convergence
-        echo
-        sed -n '/^## Tracing methods$/,$p' docs/accuracy.md
-    } >"$table"
+# The page with one section made anew: what makes it, its heading, the next one's.
+renewed() {
+    sed "/^## $2\$/,\$d" docs/accuracy.md
+    "$1"
+    echo
+    sed -n "/^## $3\$/,\$p" docs/accuracy.md
+}
+
+if [[ ${1:-} == stills || ${1:-} == convergence ]]; then
+    if [[ $1 == stills ]]; then
+        renewed stills "Stills" "Over frames at rest"
+    else
+        renewed convergence "Over frames at rest" "Tracing methods"
+    fi >"$table"
     cp "$table" docs/accuracy.md
     exit
 fi
