@@ -1,6 +1,6 @@
-// Smooths the light that hits of smooth reflections and of paths through clear glass reflect diffusely, over neighbouring pixels
+// Smooths the light that hits of smooth reflections and of paths through clear glass reflect (split_hit.glsl), over pixels
 // whose hits face the same way at the same distance, and adds it to the rays' answers. In: that light, the factor on it with the
-// hit distance, the hits' normals. Out: the answers.
+// hit's distance from the eye, the hits' normals. Out: the answers.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "renderer/trace_scene/smooth_hits.h"

@@ -1,5 +1,5 @@
-// Smooths what mirrors and clear glass show of diffuse light, which one path per pixel and frame leaves grainy. Shared
-// by C++ and GLSL.
+// Smooths the indirect light of what mirrors and clear glass show, which one path per pixel and frame leaves grainy.
+// Shared by C++ and GLSL.
 #ifndef REFLET_RENDERER_SMOOTH_HITS_H
 #define REFLET_RENDERER_SMOOTH_HITS_H
 

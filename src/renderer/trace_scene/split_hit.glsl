@@ -1,11 +1,11 @@
-// Splits what mirrors and clear glass show: light that the hit, the first that is no mirror, reflects from other surfaces, diffusely or by a rough lobe, is
-// kept apart from the hit's reflectance, to be smoothed (smooth_hits.comp). The hit's own light, its textures and sharp
-// reflections stay as they are.
+// Splits what mirrors and clear glass show: light that the first hit that is no mirror reflects from other surfaces, diffusely or
+// by a rough lobe, is kept apart from the hit's reflectance, to be smoothed (smooth_hits.comp). The hit's own light, its textures
+// and sharp reflections stay as they are.
 #ifndef REFLET_SPLIT_HIT_GLSL
 #define REFLET_SPLIT_HIT_GLSL
 
 layout(constant_id = 6) const uint splitsHits = 0u;
-const float splitRoughness = 0.1;   // rougher lobes are smoothed by the denoiser
+const float splitRoughness = 0.1;      // rougher lobes are smoothed by the denoiser
 const float smoothedRoughness = 0.15;  // of hits whose reflections are smoothed, too
 
 // What is kept apart.
