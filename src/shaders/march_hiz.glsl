@@ -1,32 +1,36 @@
 // Hierarchical depth (hi-Z) traversal: a cell that the ray passes entirely in front of, or entirely behind by more than
 // the thickness, is skipped in one step, and at its parent's border the next coarser level is tried; otherwise the next finer one. (Uludag,
 // Hi-Z Screen-Space Cone-Traced Reflections, GPU Pro 5, 2014, with nearest and farthest depth)
-// The includer also defines, before it includes this: vec2 loadCell(ivec2 cell, int level), level at least 1. It
+// The includer also defines, before it includes this: vec2 loadCell(ivec2 cell, int level). It
 // returns the largest (nearest) and the smallest (farthest; of back faces if those are used) reversed depth of the
 // 2^level x 2^level pixels from cell · 2^level on. The sky does not count; if some pixels show it, the second value is
-// negative (0 and -1 if all do).
+// negative (0 and -1 if all do). Of level 0 it returns loadDepth and loadBackDepth, which is not read unless
+// MarchOptions.secondLayer.
 #ifndef REFLET_MARCH_HIZ_GLSL
 #define REFLET_MARCH_HIZ_GLSL
 
 #include "shaders/march_pixels.glsl"
 
-// Whether the traversal must descend: between the two distances, the ray is neither entirely in front of the cell nor
-// entirely behind it. occluded: set if it is behind; in a cell with sky, only the pixels can tell.
-bool mustDescend(vec2 depths, MarchRay ray, float first, float last, MarchOptions o, MarchView view,
-                 inout bool behind, inout bool occluded) {
+// Whether the ray, between two distances, is neither entirely in front of a cell nor entirely behind it: then it hits the
+// cell if that is a pixel, by hitsPixel's rules, and else must descend. behind, occluded: as of hitsPixel; in a cell with
+// sky, only the pixels can tell. One load and no branch for all levels: lanes of a wave are at different ones.
+bool isWithin(ivec2 cell, int level, MarchRay ray, float first, float last, MarchOptions o, MarchView view,
+              inout bool behind, inout bool occluded) {
+    vec2 depths = loadCell(cell, level);
+    bool isPixel = level == 0;
+    bool hasBack = o.secondLayer && depths.y > 0.0;
+    float farthest = isPixel && !hasBack ? depths.x : abs(depths.y);
     float viewDistanceFirst = ray.viewDistanceStart + first * ray.viewDistanceStep;
     float viewDistanceLast = ray.viewDistanceStart + last * ray.viewDistanceStep;
-    if (isInFrontOf(max(viewDistanceFirst, viewDistanceLast), depths.x, view)) {
-        behind = false;
-        return false;
-    }
-    if (isInFrontOf(min(viewDistanceFirst, viewDistanceLast) - o.thickness, abs(depths.y), view) ||
-        (depths.y < 0.0 && !occluded)) {
-        return true;
-    }
-    behind = true;
-    occluded = true;
-    return false;
+    float nearest = min(viewDistanceFirst, viewDistanceLast);
+    bool hittable = isHittable(ray, cell, depths.x, view);
+    bool inFront = isInFrontOf(max(viewDistanceFirst, viewDistanceLast), depths.x, view) || (isPixel && !hittable);
+    bool within = isInFrontOf(nearest - (isPixel && hasBack ? 0.0 : o.thickness), farthest, view);
+    within = within || (!isPixel && depths.y < 0.0 && !occluded);
+    bool fromBehind = isPixel ? behind && !isInFrontOf(nearest, depths.x, view) : behind;
+    behind = !inFront && (within ? fromBehind : true);
+    occluded = occluded || !(inFront || within);
+    return !inFront && within;
 }
 
 // Finds the same pixel as marchExhaustive.
@@ -54,8 +58,9 @@ MarchResult marchHiz(MarchRay ray, MarchOptions o, MarchView view) {
         float sLast = min(min(s.x, s.y), 1.0);
         float there = distanceAlong(r, sLast);
         ++steps;
-        bool descends = level > 0 && mustDescend(loadCell(cell, level), ray, first, there, o, view, behind, occluded);
-        bool hit = level == 0 && hitsPixel(ray, pixel, first, there, o, view, behind, occluded);
+        bool within = isWithin(cell, level, ray, first, there, o, view, behind, occluded);
+        bool descends = within && level > 0;
+        bool hit = within && level == 0;
         last = descends ? last : there;
         clear = descends || hit || occluded ? clear : there;
         // Exactly across one border; along the other axis to the ray's position, clamped to the cell.

@@ -3,8 +3,6 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "oracle_test.h"
-#include "effects/levels.glsl"
-#include "effects/pyramid/pyramid.h"
 #include "shaders/noise.glsl"
 #include "shaders/octahedral.glsl"
 #include "shaders/projection.glsl"
@@ -17,14 +15,13 @@ layout(scalar) uniform ParamsBlock { OracleParams params; };
 uniform sampler2D depth;
 uniform sampler2D backDepth;
 layout(rg32f) uniform readonly image2D pyramid;
+#include "effects/pyramid/pyramid.glsl"
 uniform usampler2D geometricNormal;
 layout(scalar) buffer OutputBlock { OracleRay items[]; } outputs;
 
 float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 float loadBackDepth(ivec2 pixel) { return texelFetch(backDepth, pixel, 0).r; }
-vec2 loadCell(ivec2 cell, int level) {
-    return imageLoad(pyramid, cell + ivec2(0, levelRow(ivec2(params.view.size), level))).rg;
-}
+vec2 loadCell(ivec2 cell, int level) { return pyramidCell(cell, level, params.view.size); }
 #include "shaders/march_hiz.glsl"
 
 const uint tries = 64u;

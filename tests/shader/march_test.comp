@@ -50,6 +50,9 @@ float loadBackDepth(ivec2 pixel) {
 
 // By looking at all of the cell's pixels.
 vec2 loadCell(ivec2 cell, int level) {
+    if (level == 0) {
+        return vec2(loadDepth(cell), loadBackDepth(cell));
+    }
     ivec2 first = cell << level;
     ivec2 last = min((cell + 1) << level, ivec2(params.view.size));
     vec2 extremes = vec2(0.0, 1.0);

@@ -3,8 +3,6 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/contact/contact.h"
-#include "effects/levels.glsl"
-#include "effects/pyramid/pyramid.h"
 #include "shaders/octahedral.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -12,14 +10,13 @@ layout(scalar) uniform ParamsBlock { ContactParams params; };
 uniform sampler2D depth;
 uniform usampler2D geometricNormal;
 layout(rg32f) uniform readonly image2D pyramid;
+#include "effects/pyramid/pyramid.glsl"
 uniform sampler2D byMap;
 layout(r8) uniform writeonly image2D visibility;
 
 float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 float loadBackDepth(ivec2 pixel) { return 0.0; }  // no second layer: thickness by the setting
-vec2 loadCell(ivec2 cell, int level) {
-    return imageLoad(pyramid, cell + ivec2(0, levelRow(ivec2(params.view.size), level))).rg;
-}
+vec2 loadCell(ivec2 cell, int level) { return pyramidCell(cell, level, params.view.size); }
 #include "shaders/march_hiz.glsl"
 
 vec3 normalAt(ivec2 pixel) { return unpackUnitVector(texelFetch(geometricNormal, pixel, 0).r); }

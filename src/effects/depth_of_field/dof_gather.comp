@@ -28,14 +28,14 @@ const float leastRadius = 0.25;  // smaller disks are points
 float pixelSide = float(1u + coarse);  // in pixels of half resolution
 
 Ground loadGround(ivec2 cell, int level) {
-    ivec2 at = placeOf(cell, level, cells);
+    ivec2 at = levelPlace(cell, level, cells);
     vec4 light = imageLoad(ground, at);
     vec2 blur = imageLoad(groundBlur, at).rg;
     return Ground(light.rgb, light.a, blur.x, blur.y);
 }
 
 Front loadFront(ivec2 cell, int level) {
-    ivec2 at = placeOf(cell, level, cells);
+    ivec2 at = levelPlace(cell, level, cells);
     return Front(imageLoad(front, at), imageLoad(frontBlur, at).r);
 }
 

@@ -31,11 +31,6 @@ const float sharpWeight = 1e-4;
 const vec2 large = vec2(4.0, 5.5);
 float largeShare(float radius) { return clamp((radius - large.x) / (large.y - large.x), 0.0, 1.0); }
 
-// Where a cell of a level is in the layers' images: level 0 at the left, the others (effects/levels.h) at its right. cells: of level 0.
-ivec2 placeOf(ivec2 cell, int level, ivec2 cells) {
-    return level == 0 ? cell : cell + ivec2(cells.x, levelRow(cells, level));
-}
-
 // A cell of the background.
 struct Ground {
     vec3 light;      // radiance

@@ -22,7 +22,7 @@ void main() {
     FrontSum before = FrontSum(vec4(0.0), vec2(0.0));
     ivec2 last = levelSize(cells, level - 1) - 1;
     for (int i = 0; i < 4; ++i) {
-        ivec2 from = placeOf(min(2 * cell + ivec2(i & 1, i >> 1), last), level - 1, cells);
+        ivec2 from = levelPlace(min(2 * cell + ivec2(i & 1, i >> 1), last), level - 1, cells);
         vec4 g = imageLoad(ground, from);
         vec2 gb = imageLoad(groundBlur, from).rg;
         add(behind, Ground(g.rgb, g.a, gb.x, gb.y));
@@ -30,7 +30,7 @@ void main() {
     }
     Ground g = meanOf(behind, 4.0);
     Front n = meanOf(before, 4.0);
-    ivec2 to = placeOf(cell, level, cells);
+    ivec2 to = levelPlace(cell, level, cells);
     imageStore(ground, to, vec4(g.light, g.presence));
     imageStore(groundBlur, to, vec4(g.coc, g.far, 0.0, 0.0));
     imageStore(front, to, n.light);

@@ -5,7 +5,6 @@
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/lobe/record_ray.h"
 #include "effects/gbuffer/gbuffer.glsl"
-#include "effects/levels.glsl"
 #include "shaders/sampling.glsl"
 
 layout(local_size_x = 64) in;
@@ -15,13 +14,12 @@ uniform usampler2D normal;
 uniform usampler2D geometricNormal;
 uniform sampler2D backDepth;
 layout(rg32f) uniform readonly image2D pyramid;
+#include "effects/pyramid/pyramid.glsl"
 layout(rgba32f) uniform writeonly image2D record;
 
 float loadDepth(ivec2 pixel) { return texelFetch(depth, pixel, 0).r; }
 float loadBackDepth(ivec2 pixel) { return texelFetch(backDepth, pixel, 0).r; }
-vec2 loadCell(ivec2 cell, int level) {
-    return imageLoad(pyramid, cell + ivec2(0, levelRow(ivec2(params.view.size), level))).rg;
-}
+vec2 loadCell(ivec2 cell, int level) { return pyramidCell(cell, level, params.view.size); }
 #include "effects/lobe/trace_ray.glsl"
 
 void main() {

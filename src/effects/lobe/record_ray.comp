@@ -4,7 +4,6 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/gbuffer/gbuffer.glsl"
-#include "effects/levels.glsl"
 #include "effects/lobe/record_ray.h"
 
 layout(local_size_x = 1) in;
@@ -16,6 +15,7 @@ uniform usampler2D normal;
 uniform usampler2D geometricNormal;
 uniform sampler2D backDepth;
 layout(rg32f) uniform readonly image2D pyramid;
+#include "effects/pyramid/pyramid.glsl"
 layout(rgba32f) uniform writeonly image2D record;
 
 uint noted = 0u;
@@ -36,7 +36,7 @@ float loadBackDepth(ivec2 pixel) {
     return texelFetch(backDepth, pixel, 0).r;
 }
 vec2 loadCell(ivec2 cell, int level) {
-    vec2 depths = imageLoad(pyramid, cell + ivec2(0, levelRow(ivec2(params.view.size), level))).rg;
+    vec2 depths = pyramidCell(cell, level, params.view.size);
     note(cell, level, depths.x);
     return depths;
 }

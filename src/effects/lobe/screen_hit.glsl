@@ -5,7 +5,6 @@
 
 #include "effects/lobe/rays.glsl"
 #include "effects/lobe/screen_light.glsl"
-#include "effects/pyramid/pyramid.h"
 #include "shaders/noise.glsl"
 
 layout(constant_id = 20) const uint method = 0u;
@@ -20,13 +19,12 @@ layout(constant_id = 28) const uint fades = 0u;
 layout(constant_id = 34) const uint certainNext = 0u;
 
 layout(rg32f) uniform readonly image2D pyramid;
+#include "effects/pyramid/pyramid.glsl"
 uniform sampler2D backDepth;
 layout(rg16f) uniform writeonly image2D imageMotion;
 
 float loadBackDepth(ivec2 pixel) { return texelFetch(backDepth, pixel, 0).r; }
-vec2 loadCell(ivec2 cell, int level) {
-    return imageLoad(pyramid, cell + ivec2(0, levelRow(ivec2(params.view.size), level))).rg;
-}
+vec2 loadCell(ivec2 cell, int level) { return pyramidCell(cell, level, params.view.size); }
 #include "effects/lobe/trace_ray.glsl"
 
 // Width of the blur relative to the radius that holds half of the lobe's energy. 1.7 would match the lobe if both were

@@ -127,7 +127,7 @@ const uint shadowRangeTexels = 4;
 
 struct ShadowRangeParams {
     uvec2 size;  // of the map
-    uint level;  // to make, from 1
+    uint level;  // 1, 3, 5 …: makes this one and the next
 };
 
 SHARED_END

@@ -21,12 +21,14 @@ uvec2 shadowRangeSize(uvec2 map) {
 
 void makeShadowRange(gpu::PassList& f, const ShadowMap& map, gpu::Image range) {
     constexpr ShadowShaders shaders{"shadow_range.comp", "shadow_range_host.comp", "shadow_range_layers.comp"};
-    for (uint32_t level = 1; level < shadowRangeLevels; ++level) {
+    static_assert(shadowRangeLevels % 2 == 1, "each pass makes two levels from level 1 on");
+    for (uint32_t level = 1; level < shadowRangeLevels; level += 2) {
         gpu::ComputePass pass = f.compute("shadow_range." + std::to_string(level), shaders.of(map));
         bindShadowMap(pass, map)
             .write("range", range)
+            .constant("fromMap", level == 1 ? 1U : 0U)
             .params(ShadowRangeParams{map.size(), level})
-            .dispatch(levelSize(cellsOf(map.size()), level));
+            .dispatch(levelSize(cellsOf(map.size()), level + 1));
     }
 }
 

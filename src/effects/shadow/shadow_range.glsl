@@ -1,8 +1,10 @@
-// Builds one level of the shadow map's min/max pyramid. In: the map (level 1), or the level below. Out: the level, in
-// the same image.
+// Builds two levels of the shadow map's min/max pyramid. In: the map (levels 1 and 2), or the level below. Out: both
+// levels, in the same image.
 // shadow_depth.glsl says what the map is.
 #include "effects/levels.glsl"
 #include "effects/shadow/shadow.h"
+
+layout(constant_id = 0) const uint fromMap = 0u;  // 1: level 1 and 2
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { ShadowRangeParams params; };
@@ -15,6 +17,10 @@ int level = int(params.level);
 
 // Combines two (max, min) pairs.
 vec2 ofBoth(vec2 a, vec2 b) { return vec2(max(a.x, b.x), min(a.y, b.y)); }
+
+void store(ivec2 cell, int at, vec2 value) {
+    imageStore(range, cell + ivec2(0, levelRow(cells, at)), vec4(value, 0.0, 0.0));
+}
 
 vec2 ofTexels(ivec2 cell) {
     const int side = 2 * int(shadowRangeTexels);
@@ -32,13 +38,21 @@ vec2 below(ivec2 cell) {
     return imageLoad(range, cell + ivec2(0, levelRow(cells, level - 1))).rg;
 }
 
+vec2 make(ivec2 cell) {
+    cell = min(cell, levelSize(cells, level) - 1);
+    vec2 all = fromMap != 0u ? ofTexels(cell)
+                             : ofBoth(ofBoth(below(2 * cell), below(2 * cell + ivec2(1, 0))),
+                                      ofBoth(below(2 * cell + ivec2(0, 1)), below(2 * cell + ivec2(1, 1))));
+    store(cell, level, all);
+    return all;
+}
+
 void main() {
     ivec2 cell = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(cell, levelSize(cells, level)))) {
+    if (any(greaterThanEqual(cell, levelSize(cells, level + 1)))) {
         return;
     }
-    vec2 all = level == 1 ? ofTexels(cell)
-                          : ofBoth(ofBoth(below(2 * cell), below(2 * cell + ivec2(1, 0))),
-                                   ofBoth(below(2 * cell + ivec2(0, 1)), below(2 * cell + ivec2(1, 1))));
-    imageStore(range, cell + ivec2(0, levelRow(cells, level)), vec4(all, 0.0, 0.0));
+    vec2 all = ofBoth(ofBoth(make(2 * cell), make(2 * cell + ivec2(1, 0))),
+                      ofBoth(make(2 * cell + ivec2(0, 1)), make(2 * cell + ivec2(1, 1))));
+    store(cell, level + 1, all);
 }
