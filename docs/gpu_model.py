@@ -27,14 +27,16 @@ GPUS = {
 TRIPS = {
     "trace_at_once": [1, 120, 8, 8], "trace_screen": [1, 120, 8, 8], "shadow_visibility": [1, 1, 12, 6, 6],
     "diffuse.denoise_gather": [9, 4, 0.3], "specular.denoise_gather": [9, 2.5, 0.3, 4, 0.3], "denoise_blur": [8],
-    "temporal": [4, 4, 3], "tiles": [8, 8], "dof.coc": [2.7], "dof.highlights": [324, 256, 1, 64],
+    "temporal": [4, 4, 3], "tiles": [8, 8], "dof.coc": [2.7], "dof.highlights": [5.1, 6],
+    "dof.composite.5": [3, 2], "dof.composite.6": [4, 4], "dof.composite.7": [4, 4, 3, 2],
     "dof.reach": [11], "dof.gather": [6, 46, 46, 4], "dof.gather_large": [6, 46, 46], "exposure.smooth": [16] + [20] * 10,
     "exposure.meter": [5, 5],
 }
 # Dispatches whose size only the device knows: pixels of the traced grid or of the picture that they get.
 SHARES = {"shadow_clean": 0.25, "specular.trace_screen": 0.4, "specular.generate_rays": 0.4,
-          "specular.answer_environment": 0.17, "dof.apparent_depth": 0.15, "dof.highlights": 0.002,
-          "dof.gather_large": 0.01, "dof.gather": 0.08, "dof.composite": 0.2}
+          "specular.answer_environment": 0.17, "dof.apparent_depth": 0.15, "dof.highlights": 0.0125,
+          "dof.gather_large": 0.01, "dof.gather": 0.08, "dof.composite.4": 0.1, "dof.composite.5": 0.008, "dof.composite.6": 0.05,
+          "dof.composite.7": 0.005, "dof.composite.8": 0.087}
 MOST_BYTES = 320  # per thread: passes over small mips bind whole images
 GROUPS = ("import", "shadow", "diffuse", "specular", "composite", "temporal", "dof", "exposure", "tonemap")
 # docs/gpu.md: medians of builtin:cave on an H100, of the program's frames, quality, ms; and the model's passes for them.
@@ -85,6 +87,9 @@ def frame(stats, preset, gpu):
     """[(label, seconds, what bounds it)]"""
     recorded = stats["frames"][preset]
     pixels = (1920 * 1080) if preset in ("quality", "options") else 960 * 540
+    for p in recorded["passes"]:
+        if "list=" in p["kernel"] and p["label"] == "dof.composite":  # a dispatch for each list of tiles
+            p["label"] += "." + p["kernel"].split("list=")[1]
     rows = [(p["label"], *seconds(gpu, p, stats["kernels"][p["kernel"]], (1920 * 1080 if p["label"].startswith("dof") else pixels)))
             for p in recorded["passes"]]
     return rows + [("clears", recorded["cleared_bytes"] / gpu["bytes"], "bytes")]

@@ -50,7 +50,7 @@ const uint dofSmall = 2;       // disks that are drawn at full resolution may re
 // Groups per row of the indirect dispatch over a list. The lists are one image, of 10125 rows for 7680x4320 pixels:
 // images of 16384 are everywhere.
 const uint dofListRow = 128;
-// Tiles per group of dofGatherLarge and dofBright; of the other lists 1.
+// Tiles per group of dofGatherLarge; of the other lists 1.
 const uint dofGroupTiles = 4;
 
 // An indirect dispatch over a list, and its number of tiles.

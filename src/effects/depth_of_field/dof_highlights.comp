@@ -15,61 +15,104 @@ layout(r32ui) uniform readonly uimage2D tileLists;
 #include "effects/depth_of_field/dof_picture.glsl"
 #include "effects/depth_of_field/dof_tile_lists.glsl"
 
-int side = int(params.block);
-int around = side + 2;
-int cells = side / 2;
-int tileSide = tileBlocks(params.block);
+// A group finds the highlights of a tile: a thread for each cell of 2 x 2 pixels, those of a block beside one another.
+const int threads = int(dofTile * dofTile);
+const int pixels = 2 * int(dofTile);
+const int seen = pixels + 2;  // with those around the tile
 
-void main() {
-    ivec2 place = ivec2(gl_WorkGroupID.x * dofGroupTiles + (gl_LocalInvocationIndex >> 4u), gl_WorkGroupID.y);
-    uint item = imageLoad(tileLists, place + ivec2(0, listStart(dofBright, imageSize(tileLists).y))).r;
-    ivec2 tile = unpackTile(item);
-    int index = int(gl_LocalInvocationIndex & 15u);
-    ivec2 inTile = ivec2(index & 3, index >> 2);
-    ivec2 block = tile * tileSide + inTile;
-    ivec2 blocks = (ivec2(params.size) + side - 1) / side;
-    if (item == dofNoTile || any(greaterThanEqual(inTile, ivec2(tileSide))) || any(greaterThanEqual(block, blocks))) {
-        return;
-    }
-    float darkness = imageLoad(tiles, tile).a;
-    ivec2 last = ivec2(params.size) - 1;
-    // A pixel at the edge of a lamp has the depth of what is behind, but the lamp's light.
-    float brightest = 0.0;
-    float c = 0.0;
-    for (int i = 0; i < around * around; ++i) {
-        ivec2 pixel = clamp(side * block + ivec2(i % around, i / around) - 1, ivec2(0), last);
-        vec3 light = lightAt(pixel);
+shared vec2 bright[seen * seen];  // brightness of pixels with highlights, signed radius
+shared vec2 brightest[threads];   // of a cell's pixels and those around it; of the first thread of a block: of the block's
+shared vec4 light[threads];       // share · radiance, of its brightness
+shared vec3 moments[threads];     // of brightness: x, y, squared length
+
+int cells = int(params.block) / 2;  // of a block, to a side
+int group = cells * cells;
+
+void lookAround(ivec2 tile, int index, float darkness) {
+    for (int i = index; i < seen * seen; i += threads) {
+        ivec2 pixel = clamp(pixels * tile + ivec2(i % seen, i / seen) - 1, ivec2(0), ivec2(params.size) - 1);
+        vec3 c = lightAt(pixel);
         float radius = cocAt(pixel);
-        float bright = brightness(light) * float(highlightShare(light, radius, darkness, params.block) > 0.0);
-        c = bright > brightest ? radius : c;
-        brightest = max(brightest, bright);
+        bright[i] = vec2(highlightShare(c, radius, darkness, params.block) > 0.0 ? brightness(c) : 0.0, radius);
     }
-    vec3 sum = vec3(0.0);
-    vec4 moments = vec4(0.0);  // of brightness: x, y, squared length, sum
-    int end = brightest > 0.0 ? side * side : 0;
-    for (int i = 0; i < end; ++i) {
-        ivec2 pixel = side * block + ivec2(i % side, i / side);
-        vec3 light = lightAt(min(pixel, last));
-        float share = any(greaterThan(pixel, last)) ? 0.0 : highlightShare(light, cocAt(min(pixel, last)), darkness, params.block);
-        vec2 at = vec2(i % side, i / side) + 0.5;
-        sum += share * light;
-        moments += share * brightness(light) * vec4(at, dot(at, at), 1.0);
+}
+
+// A pixel at the edge of a lamp has the depth of what is behind, but the lamp's light.
+vec2 brightestAround(ivec2 inTile) {
+    vec2 most = vec2(0.0);
+    for (int i = 0; i < 16; ++i) {
+        vec2 there = bright[(2 * inTile.y + (i >> 2)) * seen + 2 * inTile.x + (i & 3)];
+        most = there.x > most.x ? there : most;
     }
-    // Cells, and the list, change where there is a highlight.
-    end = moments.w > 0.0 ? cells * cells : 0;
-    for (int i = 0; i < end; ++i) {
-        ivec2 cell = cells * block + ivec2(i % cells, i / cells);
-        int inside = all(lessThan(cell, ivec2(params.half2))) ? 1 : 0;
-        for (int j = 0; j < inside; ++j) {
-            splitCell(cell, darkness);
+    return most;
+}
+
+// corner: of the cell's block [pixels].
+void sumCell(int index, ivec2 cell, ivec2 corner, float darkness) {
+    ivec2 last = ivec2(params.size) - 1;
+    light[index] = vec4(0.0);
+    moments[index] = vec3(0.0);
+    for (int i = 0; i < 4; ++i) {
+        ivec2 pixel = 2 * cell + ivec2(i & 1, i >> 1);
+        vec3 c = lightAt(min(pixel, last));
+        float share = highlightShare(c, cocAt(min(pixel, last)), darkness, params.block);
+        share = any(greaterThan(pixel, last)) ? 0.0 : share;
+        vec2 at = vec2(pixel - corner) + 0.5;
+        light[index] += share * vec4(c, brightness(c));
+        moments[index] += share * brightness(c) * vec3(at, dot(at, at));
+    }
+}
+
+// Sums of a block's threads, in its first one.
+void sumBlock(int index) {
+    for (int apart = threads / 2; apart > 0; apart >>= 1) {
+        barrier();
+        if (apart < group && (index & (group - 1)) < apart) {
+            vec2 other = brightest[index + apart];
+            brightest[index] = other.x > brightest[index].x ? other : brightest[index];
+            light[index] += light[index + apart];
+            moments[index] += moments[index + apart];
         }
     }
-    moments.xyz /= max(moments.w, 1e-9);
-    float spread = max(moments.z - dot(moments.xy, moments.xy), 0.0);
+    barrier();
+}
+
+void storeDisk(ivec2 block, vec2 corner, int first) {
+    float c = brightest[first].y;
+    vec3 mean = moments[first] / max(light[first].a, 1e-9);
+    float spread = max(mean.z - dot(mean.xy, mean.xy), 0.0);
     float edge2 = max(6.0 * spread - 1.0, 1.0);  // of a disk of the light's own size; antialiasing has spread it
     float radius2 = max(c * c - edge2 / 12.0, 0.25);
-    vec3 light = min(sum * params.disk / (radius2 + edge2 / 12.0), 65504.0);
-    vec2 corner = vec2(side * inTile);
-    imageStore(highlights, block, vec4(light, c));
-    imageStore(highlightShape, block, vec4(corner + moments.xy, sqrt(radius2), inversesqrt(edge2)));
+    vec3 radiance = min(light[first].rgb * params.disk / (radius2 + edge2 / 12.0), 65504.0);
+    imageStore(highlights, block, vec4(radiance, c));
+    imageStore(highlightShape, block, vec4(corner + mean.xy, sqrt(radius2), inversesqrt(edge2)));
+}
+
+void main() {
+    ivec2 place = ivec2(gl_WorkGroupID.xy);
+    uint item = imageLoad(tileLists, place + ivec2(0, listStart(dofBright, imageSize(tileLists).y))).r;
+    if (item == dofNoTile) {
+        return;
+    }
+    ivec2 tile = unpackTile(item);
+    int index = int(gl_LocalInvocationIndex);
+    int inBlock = index & (group - 1);
+    int number = index / group;
+    int side = tileBlocks(params.block);
+    ivec2 blockInTile = ivec2(number & (side - 1), number / side);
+    ivec2 inTile = cells * blockInTile + ivec2(inBlock & (cells - 1), inBlock / cells);
+    ivec2 cell = int(dofTile) * tile + inTile;
+    float darkness = imageLoad(tiles, tile).a;
+    lookAround(tile, index, darkness);
+    barrier();
+    brightest[index] = brightestAround(inTile);
+    sumCell(index, cell, pixels * tile + 2 * cells * blockInTile, darkness);
+    sumBlock(index);
+    // Cells, and the list, change where there is a highlight.
+    if (light[index - inBlock].a > 0.0 && all(lessThan(cell, ivec2(params.half2)))) {
+        splitCell(cell, darkness);
+    }
+    if (inBlock == 0 && all(lessThan(2 * cell, ivec2(params.size)))) {
+        storeDisk(side * tile + blockInTile, vec2(2 * cells * blockInTile), index);
+    }
 }

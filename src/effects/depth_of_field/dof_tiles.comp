@@ -56,6 +56,6 @@ void main() {
     imageStore(tiles, tile, vec4(largest, some ? darkness : 0.0));
     imageStore(smallDisks, tile, full);
     if (some) {
-        append(dofBright, tile, dofGroupTiles);
+        append(dofBright, tile, 1u);
     }
 }
