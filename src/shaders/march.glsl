@@ -11,6 +11,7 @@ const uint marchHit = 0u;
 const uint marchLeftScreen = 1u;    // off-screen: beyond an edge, or behind the camera
 const uint marchLimitReached = 2u;  // step limit or maximum distance reached: a miss
 const uint marchOccluded = 3u;      // went behind something thicker than the thickness: a miss
+const uint marchUnfinished = 4u;    // marchHizOn: goes on from its state
 
 struct MarchResult {
     uint outcome;
@@ -56,18 +57,21 @@ struct MarchRay {
     vec4 clipStep;
     float viewDistanceStart;
     float viewDistanceStep;
-    vec4 ownPlane;  // the plane that the ray starts from, as planeOnScreen gives it
+    vec4 ownPlane;  // of (pixel x, pixel y, depth, 1): above 0 outside of the plane that the ray starts from
 };
-
-MarchRay makeMarchRay(vec3 originW, vec3 directionW, vec4 ownPlane, MarchView view) {
-    return MarchRay(originW, directionW, view.worldToClip * vec4(originW, 1.0),
-                    view.worldToClip * vec4(directionW, 0.0), dot(view.viewPlane, vec4(originW, 1.0)),
-                    dot(view.viewPlane.xyz, directionW), ownPlane);
-}
 
 // Height above the ray's own plane that still counts as within it: metres per metre from the camera (orthographic:
 // metres).
 const float ownPlaneSlack = 5e-4;
+
+// ownPlane: the plane that the ray starts from, as planeOnScreen gives it.
+MarchRay makeMarchRay(vec3 originW, vec3 directionW, vec4 ownPlane, MarchView view) {
+    ownPlane.w += 0.5 * dot(ownPlane.xy, view.pixel) - ownPlaneSlack;  // at the pixel's centre
+    ownPlane.xy *= view.pixel;
+    return MarchRay(originW, directionW, view.worldToClip * vec4(originW, 1.0),
+                    view.worldToClip * vec4(directionW, 0.0), dot(view.viewPlane, vec4(originW, 1.0)),
+                    dot(view.viewPlane.xyz, directionW), ownPlane);
+}
 
 // The depth buffer at the ray's position after t metres.
 struct MarchSample {
@@ -82,8 +86,8 @@ struct MarchSample {
 // Surfaces in the ray's own plane or below it cannot be hit. Without this test, rays would self-intersect surfaces at
 // grazing angles, because one depth stands for the whole width of a pixel. (Interpolated depth would also prevent that,
 // but erodes half a pixel of every silhouette.) The sky cannot be hit either.
-bool isHittable(MarchRay ray, ivec2 pixel, float depth, MarchView view) {
-    return depth > 0.0 && dot(ray.ownPlane, vec4((vec2(pixel) + 0.5) * view.pixel, depth, 1.0)) > ownPlaneSlack;
+bool isHittable(MarchRay ray, ivec2 pixel, float depth) {
+    return depth > 0.0 && dot(ray.ownPlane, vec4(vec2(pixel), depth, 1.0)) > 0.0;
 }
 
 // Whether a point at this view distance is no farther than the surface with this depth. Fractions are compared by
@@ -115,7 +119,7 @@ MarchSample sampleAt(MarchRay ray, float t, MarchOptions o, MarchView view) {
     float front = depthToViewDistance(s.depth, view.depthToDistance);
     s.behind = ray.viewDistanceStart + t * ray.viewDistanceStep - front;
     s.thickness = thicknessAt(s.pixel, front, o, view);
-    s.hittable = s.onScreen && isHittable(ray, s.pixel, s.depth, view);
+    s.hittable = s.onScreen && isHittable(ray, s.pixel, s.depth);
     return s;
 }
 

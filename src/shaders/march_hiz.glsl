@@ -23,7 +23,7 @@ bool isWithin(ivec2 cell, int level, MarchRay ray, float first, float last, Marc
     float viewDistanceFirst = ray.viewDistanceStart + first * ray.viewDistanceStep;
     float viewDistanceLast = ray.viewDistanceStart + last * ray.viewDistanceStep;
     float nearest = min(viewDistanceFirst, viewDistanceLast);
-    bool hittable = isHittable(ray, cell, depths.x, view);
+    bool hittable = isHittable(ray, cell, depths.x);
     bool inFront = isInFrontOf(max(viewDistanceFirst, viewDistanceLast), depths.x, view) || (isPixel && !hittable);
     bool within = isInFrontOf(nearest - (isPixel && hasBack ? 0.0 : o.thickness), farthest, view);
     within = within || (!isPixel && depths.y < 0.0 && !occluded);
@@ -33,30 +33,49 @@ bool isWithin(ivec2 cell, int level, MarchRay ray, float first, float last, Marc
     return !inFront && within;
 }
 
-// Finds the same pixel as marchExhaustive.
-MarchResult marchHiz(MarchRay ray, MarchOptions o, MarchView view) {
+// Where a ray is before a step.
+struct HizState {
+    ivec2 pixel;    // at which it enters the cell; negative: that of the ray's origin
+    int level;      // of the cell
+    float first;    // metres along the ray: where it enters it
+    float clear;    // as of MarchResult
+    bool behind;    // as of hitsPixel
+    bool occluded;  // as of MarchResult
+};
+
+// Of a ray that has not made a step.
+HizState hizStart() { return HizState(ivec2(-1), 0, 0.0, 0.0, false, false); }
+
+// Goes on from a state, with step number `steps`, until it ends or step number `end` (then the outcome is marchUnfinished, if
+// o.maxSteps are more, and the state is that before that step). Finds the same pixel as marchExhaustive.
+MarchResult marchHizOn(inout HizState state, uint steps, uint end, MarchRay ray, MarchOptions o, MarchView view) {
     ScreenRay r = makeScreenRay(ray, o.maxDistance, view);
     ivec2 lastPixel = ivec2(view.size) - 1;
-    ivec2 pixel = clamp(ivec2(floor(r.start.xy)), ivec2(0), lastPixel);
-    ivec2 direction = ivec2(sign(r.delta.xy));
+    ivec2 pixel = state.pixel.x < 0 ? clamp(ivec2(floor(r.start.xy)), ivec2(0), lastPixel) : state.pixel;
+    // What does not change in the loop: compilers for GPUs do not take it out. Along an axis that the ray does not follow it
+    // never meets the next border.
+    bvec2 forward = greaterThanEqual(r.delta.xy, vec2(0.0));
+    ivec2 ahead = ivec2(forward);
+    vec2 perPixel = mix(r.perPixel, vec2(1e30), equal(r.delta.xy, vec2(0.0)));
+    float span = r.wStart - r.wEnd;
+    float scale = r.end * r.wStart;
     // Few variables change in the loop, and only by selection: on CPUs each is memory.
-    uint outcome = marchLimitReached;
-    uint steps = 0u;
-    int level = 0;
-    float first = 0.0;
-    float last = 0.0;
-    float clear = 0.0;
-    bool behind = false;
-    bool occluded = false;
+    uint outcome = end < o.maxSteps ? marchUnfinished : marchLimitReached;
+    int level = state.level;
+    float first = state.first;
+    float last = state.first;
+    float clear = state.clear;
+    bool behind = state.behind;
+    bool occluded = state.occluded;
     bool ended = false;
-    while (!ended && steps < o.maxSteps) {
+    while (!ended && steps < end) {
         // The corner where the ray leaves the cell.
         ivec2 cell = pixel >> level;
         ivec2 low = cell << level;
-        ivec2 corner = (cell + max(direction, ivec2(0))) << level;
-        vec2 s = borderCrossings(r, corner);
+        ivec2 corner = (cell + ahead) << level;
+        vec2 s = (vec2(corner) - r.start.xy) * perPixel;
         float sLast = min(min(s.x, s.y), 1.0);
-        float there = distanceAlong(r, sLast);
+        float there = scale * sLast / (r.wEnd + sLast * span);
         ++steps;
         bool within = isWithin(cell, level, ray, first, there, o, view, behind, occluded);
         bool descends = within && level > 0;
@@ -65,9 +84,9 @@ MarchResult marchHiz(MarchRay ray, MarchOptions o, MarchView view) {
         clear = descends || hit || occluded ? clear : there;
         // Exactly across one border; along the other axis to the ray's position, clamped to the cell.
         ivec2 across = clamp(ivec2(floor(r.start.xy + sLast * r.delta.xy)), low, low + (1 << level) - 1);
-        ivec2 next = s.x <= s.y ? ivec2(corner.x + min(direction.x, 0), across.y)
-                                : ivec2(across.x, corner.y + min(direction.y, 0));
-        bool leaves = sLast >= 1.0 || any(lessThan(next, ivec2(0))) || any(greaterThan(next, lastPixel));
+        corner += ahead - 1;
+        ivec2 next = s.x <= s.y ? ivec2(corner.x, across.y) : ivec2(across.x, corner.y);
+        bool leaves = sLast >= 1.0 || any(greaterThan(uvec2(next), uvec2(lastPixel)));  // or negative
         ended = hit || (leaves && !descends);
         outcome = hit ? (behind ? marchOccluded : marchHit) : (ended ? (r.leavesScreen ? marchLeftScreen : marchLimitReached) : outcome);
         // Of a coarser cell that it had to descend into, the ray tests all parts before it tries that level again.
@@ -76,8 +95,14 @@ MarchResult marchHiz(MarchRay ray, MarchOptions o, MarchView view) {
         first = ended || descends ? first : there;
         level = descends ? level - 1 : (climbs ? min(level + 1, o.levels - 1) : level);
     }
+    state = HizState(pixel, level, first, clear, behind, occluded);
     MarchResult result = MarchResult(outcome, pixel, last, clear, occluded, steps);
     return withHitDistance(result, first, ray, o, view);
+}
+
+MarchResult marchHiz(MarchRay ray, MarchOptions o, MarchView view) {
+    HizState state = hizStart();
+    return marchHizOn(state, 0u, o.maxSteps, ray, o, view);
 }
 
 #endif

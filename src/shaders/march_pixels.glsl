@@ -60,7 +60,7 @@ bool hitsPixel(MarchRay ray, ivec2 pixel, float first, float last, MarchOptions 
     float depth = loadDepth(pixel);
     float viewDistanceFirst = ray.viewDistanceStart + first * ray.viewDistanceStep;
     float viewDistanceLast = ray.viewDistanceStart + last * ray.viewDistanceStep;
-    if (isInFrontOf(max(viewDistanceFirst, viewDistanceLast), depth, view) || !isHittable(ray, pixel, depth, view)) {
+    if (isInFrontOf(max(viewDistanceFirst, viewDistanceLast), depth, view) || !isHittable(ray, pixel, depth)) {
         behind = false;
         return false;
     }

@@ -161,6 +161,7 @@ const std::map<std::string_view, std::string_view> invisible{
     {"direct.lamp_tiles", "culling"},
     {"direct.emitters", "the scene has none"},
     {"trace_scene.ray_query", "hardware"},
+    {"trace_screen.compaction", "the same rays in several passes"},
 };
 
 std::vector<std::string> endsOf(const SettingEntry& entry) {

@@ -24,6 +24,38 @@ gpu::ComputePass& bindGeneration(gpu::PassList& f, gpu::ComputePass& pass, const
         .read("ggxTable", in.ggxTable, f.context().sampler({VK_FILTER_LINEAR, VK_FILTER_LINEAR}));
 }
 
+// A phase of traceAtOnce.
+void tracePhase(gpu::PassList& f, const LobeLight& light, const RayGeneration& in, const ScreenSource& screen,
+                const EnvironmentSource& environment, const MarchPhase& phase) {
+    const uvec2 size = in.from.g.depth.size;
+    const bool traced = screen.images != nullptr;
+    const ScreenImages nothing{.g = in.from.g, .view = in.from.view};
+    gpu::ComputePass pass = f.compute("trace_at_once" + nameOf(phase), "trace_at_once.comp");
+    bindGeneration(f, pass, in);
+    bindScreen(f, pass, traced ? *screen.images : nothing,
+               {.own = in.from.view,
+                .settings = screen.settings,
+                .longest = screen.longest,
+                .firstStep = phase.first,
+                .endStep = phase.end,
+                .firstRay = in.params.firstRay},
+               in.imageMotion);
+    bindMarchPhase(pass, phase, in.tiles.list, f.buffer("no_list", rayListHeader));
+    bindAmbientOcclusion(f, pass, in.from.ambientOcclusion, in.from.scale);
+    bindEnvironment(pass, environment.light);
+    bindEnvironmentLobes(pass, f.context(), environment.light);
+    bindMeans(f, pass, light, in.params.firstRay)
+        .constant("screen", traced ? 1U : 0U)
+        .constant("countSteps", in.countSteps ? 1U : 0U)
+        .constant("environmentLights", environment.settings.enabled)
+        .params(AnswerEnvironmentParams{environment.settings}, "environmentAnswer");
+    if (phase.unfinished) {
+        pass.dispatchIndirect(phase.unfinished, 0);
+    } else {
+        pass.dispatchStrips(size);
+    }
+}
+
 }  // namespace
 
 gpu::ComputePass& bindDiffuseRays(gpu::ComputePass& pass, const RayGeneration& in) {
@@ -82,23 +114,14 @@ Rays generateRays(gpu::PassList& f, const RayGeneration& in) {
 void traceAtOnce(gpu::PassList& f, const LobeLight& light, const RayGeneration& in, const ScreenSource& screen,
                  const EnvironmentSource& environment) {
     const uvec2 size = in.from.g.depth.size;
-    const bool traced = screen.images != nullptr;
-    const ScreenImages nothing{.g = in.from.g, .view = in.from.view};
-    gpu::ComputePass pass = f.compute("trace_at_once", "trace_at_once.comp");
-    bindGeneration(f, pass, in);
-    bindScreen(
-        f, pass, traced ? *screen.images : nothing,
-        {.own = in.from.view, .settings = screen.settings, .longest = screen.longest, .firstRay = in.params.firstRay},
-        in.imageMotion);
-    bindAmbientOcclusion(f, pass, in.from.ambientOcclusion, in.from.scale);
-    bindEnvironment(pass, environment.light);
-    bindEnvironmentLobes(pass, f.context(), environment.light);
-    bindMeans(f, pass, light, in.params.firstRay)
-        .constant("screen", traced ? 1U : 0U)
-        .constant("countSteps", in.countSteps ? 1U : 0U)
-        .constant("environmentLights", environment.settings.enabled)
-        .params(AnswerEnvironmentParams{environment.settings}, "environmentAnswer")
-        .dispatchStrips(size);
+    std::vector<MarchPhase> phases{{.end = screen.settings.maxSteps}};
+    // The sum of several rays of a pixel is made in one pass.
+    if (screen.images != nullptr && in.params.rayCount == 1) {
+        phases = marchPhases(f, screen.settings, VkDeviceSize(size.x) * size.y);
+    }
+    for (const MarchPhase& phase : phases) {
+        tracePhase(f, light, in, screen, environment, phase);
+    }
 }
 
 }  // namespace reflet

@@ -45,6 +45,14 @@ RayTiles tilesOfLobe(gpu::PassList& f, LobeStore* own, const RaySurfaces& from, 
                       past.valid && in.lit.valid});
 }
 
+// Rays of a pixel in a pass that traces and averages: one where rays that have not ended are collected, which several
+// of them would have to wait for; but more if there are many, as each pass reads the surfaces again.
+uint32_t raysAtOnce(const gpu::Context& context, const LobeInputs& in) {
+    const bool alone =
+        in.screen.images != nullptr && compactsRays(context, in.screen.settings) && in.settings.rays <= 4;
+    return alone ? 1 : maxRaysAtOnce;
+}
+
 // separate: rays must be in memory, in one batch.
 LobePlan planLobe(gpu::PassList& f, LobeStore* own, const LobeInputs& in, bool separate) {
     const LobeSettings& s = in.settings;
@@ -60,7 +68,9 @@ LobePlan planLobe(gpu::PassList& f, LobeStore* own, const LobeInputs& in, bool s
     plan.atOnce = !separate && in.sources.empty() && in.others.empty() && s.reuse == 0 && !varies && !in.countHits;
     plan.sliced = !reflects && in.diffuse.method == DiffuseMethod::slices && in.screen.images != nullptr &&
                   in.diffuse.distribution == RayDistribution::cosine && !varies;
-    const uint32_t fit = plan.atOnce ? maxRaysAtOnce : raysPerBatch(f, plan.from.g.depth.size);
+    const uint32_t fit = plan.atOnce && !plan.sliced ? raysAtOnce(f.context(), in)
+                         : plan.atOnce               ? maxRaysAtOnce
+                                                     : raysPerBatch(f, plan.from.g.depth.size);
     plan.batch = varies || separate ? plan.tiles.mostRays : fit;
     plan.reused = s.reuse > 0 && !varies && fit >= s.rays;
     plan.directional = !reflects && in.denoise.enabled != 0 && in.denoise.directional != 0;

@@ -22,12 +22,16 @@ bool raysSpread(uint32_t lobe, const DiffuseSettings& diffuse, const SpecularSet
                                : specular.roughFallback == RoughFallback::mips && specular.maxRoughness < 1.0F;
 }
 
+void clearRayList(gpu::PassList& f, gpu::BufferView list) {
+    constexpr uint32_t empty[] = {0, 1, 1, 0};
+    f.update(list, std::as_bytes(std::span(empty)));
+}
+
 gpu::BufferView makeRayList(gpu::PassList& f, const Rays& rays) {
     const uvec2 size = rays.direction.size;
     const VkDeviceSize items = VkDeviceSize(size.x) * size.y * rays.direction.layers;
     const gpu::BufferView list = f.buffer("rays", rayListHeader + items * sizeof(RayItem));
-    constexpr uint32_t empty[] = {0, 1, 1, 0};
-    f.update(list, std::as_bytes(std::span(empty)));
+    clearRayList(f, list);
     return list;
 }
 

@@ -107,6 +107,14 @@ struct RayItem {
     uint inFront;
 };
 
+// A ray whose march goes on, as packUnfinished (march_phases.glsl) packs it.
+struct UnfinishedRay {
+    RayItem ray;
+    uint place;
+    uint first;
+    float clear;
+};
+
 // Header size in bytes: group counts for an indirect dispatch, then the number of items.
 const uint rayListHeader = 16;
 
@@ -208,6 +216,9 @@ using RaySource = std::function<void(gpu::PassList&, Rays&)>;
 
 /// Whether some rays of the lobe may have a spread.
 bool raysSpread(uint32_t lobe, const DiffuseSettings& diffuse, const SpecularSettings& specular);
+
+/// Empties a list of rays.
+void clearRayList(gpu::PassList& f, gpu::BufferView list);
 
 /// An empty list with room for all rays, for a source's misses.
 gpu::BufferView makeRayList(gpu::PassList& f, const Rays& rays);

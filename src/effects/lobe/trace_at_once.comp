@@ -12,6 +12,7 @@
 // First, because its uniform block must be: Mesa 22.3 crashes if a loop or branch depends only on values of a shader's
 // fourth uniform block.
 #include "effects/lobe/screen_hit.glsl"
+#include "effects/lobe/march_phases.glsl"
 
 layout(constant_id = 0) const uint lobe = 0u;
 layout(constant_id = 1) const uint noise = RayNoise_blue;
@@ -55,15 +56,24 @@ struct RayOrigin {
     MaterialTexel material;
 };
 
-// Traces a ray on the screen. number: of the ray in its pixel. Returns its steps.
-float traceOnScreen(RayOrigin from, uint number, Ray ray, inout WaitingRay w, inout AnswerSum sum) {
+// Traces a ray on the screen. number: of the ray in its pixel. steps: its number of steps. Returns whether it has not ended.
+bool traceOnScreen(RayOrigin from, HizState state, uint number, Ray ray, inout WaitingRay w, inout AnswerSum sum,
+                   inout float steps) {
     if (ray.trust == 0.0) {
-        return 0.0;
+        return false;
     }
     MarchView view = marchView(params.view);
     MarchRay march = makeMarchRay(from.point, ray.direction, from.plane, view);
     MarchOptions options = screenOptions(from.pixel, number);
-    MarchResult hit = marchBy(method, march, options, view);
+    MarchResult hit;
+    if (method == TraceMethod_hiz) {
+        hit = marchPhase(RayItem(packSlot(ivec3(from.pixel, 0)), 0u, 0u), state, march, options, view);
+    } else {
+        hit = marchBy(method, march, options, view);
+    }
+    if (collects != 0u && hit.outcome == marchUnfinished) {
+        return true;
+    }
     bool unseen = hitsUnseen(hit, from.point, ray, options);
     updateClearDistance(hit, unseen, from.point, ray, w);
     if (hit.outcome == marchHit && !unseen) {
@@ -72,16 +82,21 @@ float traceOnScreen(RayOrigin from, uint number, Ray ray, inout WaitingRay w, in
         }
         w.rest = addAnswer(sum, answerOfHit(hit, from.point, ray), w.rest, sourceScreen);
     }
-    return float(hit.steps);
+    steps = float(hit.steps);
+    return false;
 }
 
-void traceRay(RayOrigin from, RayNumber number, inout RaySum mean) {
+// Returns whether the ray has not ended.
+bool traceRay(RayOrigin from, HizState state, RayNumber number, inout RaySum mean) {
     Ray ray = makeRay(number, from.point, from.normal, from.material, from.geometric);
     WaitingRay w = WaitingRay(ivec3(0), 1.0, 0.0, false, vec3(0.0));
     AnswerSum sum = AnswerSum(vec4(0.0), vec4(0.0));
     float looked = 0.0;
     if (screen != 0u) {
-        looked = traceOnScreen(from, number.index, ray, w, sum);
+        bool waits = traceOnScreen(from, state, number.index, ray, w, sum, looked);
+        if (collects != 0u && waits) {
+            return true;
+        }
     }
     if (w.rest > 0.0) {
         float occlusion = lobe == lobeDiffuse ? from.material.occlusion : 1.0;
@@ -89,9 +104,10 @@ void traceRay(RayOrigin from, RayNumber number, inout RaySum mean) {
         addAnswer(sum, answerOfEnvironment(ray, occlusion, w.lost, w.inFront), w.rest, sourceEnvironment);
     }
     addRay(mean, ray, sum, from.normal, looked);
+    return false;
 }
 
-void tracePixel(ivec2 pixel, uint rays, float share) {
+void tracePixel(ivec2 pixel, HizState state, uint rays, float share) {
     float d = texelFetch(ownDepth, pixel, 0).r;
     MaterialTexel m = unpackMaterial(texelFetch(ownMaterial, pixel, 0));
     bool needed = d > 0.0 && (lobe == lobeDiffuse || (m.flags & materialFlagLambert) == 0u);
@@ -101,16 +117,31 @@ void tracePixel(ivec2 pixel, uint rays, float share) {
                                planeOnScreen(p, geometric, params.view.clipToWorld), m);
     RaySum mean = noRays();
     uint end = needed ? min(rayParams.firstRay + rayParams.rayCount, rays) : 0u;
+    bool waits = false;  // with `collects` pixels have one ray
     for (uint i = rayParams.firstRay; i < end; ++i) {
-        traceRay(from, RayNumber(pixel, i, rays), mean);
+        waits = traceRay(from, state, RayNumber(pixel, i, rays), mean);
     }
-    storeMean(pixel, mean, rays, share);
+    if (collects == 0u || !waits) {
+        storeMean(pixel, mean, rays, share);
+    }
+}
+
+void tracePixel(ivec2 pixel, HizState state) {
+    float share = imageLoad(tiles, pixel / int(rayTileSide)).r;
+    tracePixel(pixel, state, pixelRays(share, uvec2(pixel), rayParams.view.frame), share);
 }
 
 void main() {
+    if (continues != 0u) {
+        uint stride = gl_NumWorkGroups.x * listGroupSize;
+        for (uint i = gl_WorkGroupID.x * listGroupSize + gl_LocalInvocationIndex; i < unfinishedCount(); i += stride) {
+            UnfinishedRay ray = unfinished.items[i];
+            tracePixel(unpackSlot(ray.ray.slot).xy, unpackUnfinished(ray));
+        }
+        return;
+    }
     ivec2 pixel = pixelInStrips();
     if (all(lessThan(pixel, ivec2(rayParams.view.size)))) {
-        float share = imageLoad(tiles, pixel / int(rayTileSide)).r;
-        tracePixel(pixel, pixelRays(share, uvec2(pixel), rayParams.view.frame), share);
+        tracePixel(pixel, hizStart());
     }
 }

@@ -2,7 +2,7 @@
 // The same for planar reflections, with rays that start on the mirror and the mirrored camera's buffers.
 // In: depth and geometric normal of the rays' origins; of the traced view: depth of both layers, geometric normal,
 // motion, pyramid, light of this and the last frame and mips of one of them; ray directions, the list.
-// Out: results, sources, steps, motion of reflected images, the list of misses.
+// Out: results, sources, steps, motion of reflected images, the list of misses, that of rays that the next pass goes on with.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/lobe/answer_environment.h"
@@ -24,23 +24,35 @@ layout(rgba8) uniform image2DArray source;
 #include "effects/lobe/rays_answer.glsl"
 #include "effects/lobe/rays_append.glsl"
 #include "effects/lobe/screen_hit.glsl"
+#include "effects/lobe/march_phases.glsl"
 #include "effects/planar/mirror_answers.glsl"
 
-MarchResult traceRay(MarchRay ray, MarchOptions o, MarchView view) {
+// A ray of a list.
+struct ListedRay {
+    RayItem item;
+    HizState state;
+    bool waits;  // out: it has not ended, and is in the next pass' list
+};
+
+MarchResult traceRay(ListedRay listed, MarchRay ray, MarchOptions o, MarchView view) {
     // On a smooth mirror, rays point straight away from the mirrored camera and stay within one pixel, which stepping
     // would skip.
     if (through == throughMirror && all(lessThan(abs(makeScreenRay(ray, o.maxDistance, view).delta.xy), vec2(1.0)))) {
         return marchExhaustive(ray, o, view);
     }
-    return marchBy(method, ray, o, view);
+    return method == TraceMethod_hiz ? marchPhase(listed.item, listed.state, ray, o, view) : marchBy(method, ray, o, view);
 }
 
-RayAnswer traceAnswer(ivec3 slot, Ray ray, vec3 p, vec3 n, inout WaitingRay w) {
+RayAnswer traceAnswer(inout ListedRay listed, ivec3 slot, Ray ray, vec3 p, vec3 n, inout WaitingRay w) {
     MarchView view = marchView(params.view);
     // The mirror itself is clipped from its planar view, so no surface there needs to be excluded.
     vec4 ownPlane = through == throughScreen ? planeOnScreen(p, n, params.view.clipToWorld) : vec4(0.0, 0.0, 0.0, 1.0);
     MarchOptions options = screenOptions(slot.xy, params.firstRay + uint(slot.z));
-    MarchResult hit = traceRay(makeMarchRay(p, ray.direction, ownPlane, view), options, view);
+    MarchResult hit = traceRay(listed, makeMarchRay(p, ray.direction, ownPlane, view), options, view);
+    listed.waits = hit.outcome == marchUnfinished;
+    if (collects != 0u && listed.waits) {
+        return noAnswer;
+    }
     if (countSteps != 0u) {
         imageStore(steps, slot, vec4(float(hit.steps)));
     }
@@ -55,7 +67,7 @@ RayAnswer traceAnswer(ivec3 slot, Ray ray, vec3 p, vec3 n, inout WaitingRay w) {
     return hit.outcome != marchHit || unseen ? noAnswer : answerOfHit(hit, p, ray);
 }
 
-RayAnswer answerRay(ivec3 slot, Ray ray, inout WaitingRay w) {
+RayAnswer answerRay(inout ListedRay listed, ivec3 slot, Ray ray, inout WaitingRay w) {
     if (through == throughScreen && ray.trust == 0.0) {
         return noAnswer;
     }
@@ -72,15 +84,29 @@ RayAnswer answerRay(ivec3 slot, Ray ray, inout WaitingRay w) {
     if (through == throughMirrorCamera) {
         return lookUpCamera(p);
     }
-    return traceAnswer(slot, ray, p, n, w);
+    return traceAnswer(listed, slot, ray, p, n, w);
 }
 
 void main() {
     uint stride = gl_NumWorkGroups.x * listGroupSize;
-    for (uint i = gl_GlobalInvocationID.x; i < waiting.count; i += stride) {
-        WaitingRay w = unpackWaitingRay(waiting.items[i]);
+    uint count = waiting.count;
+    if (continues != 0u) {
+        count = unfinishedCount();
+    }
+    for (uint i = gl_GlobalInvocationID.x; i < count; i += stride) {
+        ListedRay listed = ListedRay(RayItem(0u, 0u, 0u), hizStart(), false);
+        if (continues != 0u) {
+            listed.item = unfinished.items[i].ray;
+            listed.state = unpackUnfinished(unfinished.items[i]);
+        } else {
+            listed.item = waiting.items[i];
+        }
+        WaitingRay w = unpackWaitingRay(listed.item);
         Ray ray = unpackRay(imageLoad(direction, w.slot).xy);
-        RayAnswer a = answerRay(w.slot, ray, w);
+        RayAnswer a = answerRay(listed, w.slot, ray, w);
+        if (collects != 0u && listed.waits) {
+            continue;
+        }
         // Not ?: of two vectors: with a specialization constant as condition, Mesa 22 gets all components but x wrong.
         vec4 color = sourcePlanar;
         if (through == throughScreen) {

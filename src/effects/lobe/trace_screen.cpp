@@ -1,7 +1,10 @@
 // Records the screen and planar reflections as ray sources.
 #include "effects/lobe/trace_screen.h"
 
+#include "gpu/context.h"
+
 #include <algorithm>
+#include <array>
 
 namespace reflet {
 
@@ -13,11 +16,14 @@ struct Trace {
     MirrorParams mirror{};
 };
 
-// The pass as shared by both sources. rays.waiting: in: rays to trace; out: misses.
+// Steps after which rays that have not ended are collected. Lane-steps of waves of 64 per ray, mean of five scenes:
+// reflections 104 without, 63 with 32, 49 with 32 and 64; diffuse rays 64, 50, 46.
+constexpr std::array<uint32_t, 2> phaseEnds{32, 64};
+
+// The pass as shared by both sources. missed: list of the misses.
 void record(gpu::PassList& f, gpu::ComputePass pass, Rays& rays, const Trace& trace,
-            const TraceScreenSettings& settings, float longest) {
+            const TraceScreenSettings& settings, float longest, const MarchPhase& phase, gpu::BufferView missed) {
     const bool countSteps = rays.countSteps && trace.through == throughScreen;
-    const gpu::BufferView missed = makeRayList(f, rays);
     ScreenImages seen = trace.seen;
     if (trace.through != throughScreen) {
         seen.lit = {};
@@ -28,8 +34,11 @@ void record(gpu::PassList& f, gpu::ComputePass pass, Rays& rays, const Trace& tr
                 .mirror = trace.mirror,
                 .settings = settings,
                 .longest = longest,
+                .firstStep = phase.first,
+                .endStep = phase.end,
                 .firstRay = rays.firstRay},
-               rays.imageMotion)
+               rays.imageMotion);
+    bindMarchPhase(pass, phase, rays.waiting, missed)
         .constant("countSteps", countSteps ? 1U : 0U)
         .constant("through", trace.through)
         .read("ownDepth", rays.from.g.depth)
@@ -40,8 +49,7 @@ void record(gpu::PassList& f, gpu::ComputePass pass, Rays& rays, const Trace& tr
         .write("source", rays.source)
         .write("steps", rays.steps)
         .write("missed", missed)
-        .dispatchIndirect(rays.waiting, 0);
-    rays.waiting = missed;
+        .dispatchIndirect(phase.unfinished ? phase.unfinished : rays.waiting, 0);
 }
 
 uint32_t throughOf(PlanarForm form) {
@@ -56,6 +64,42 @@ uint32_t throughOf(PlanarForm form) {
 }
 
 }  // namespace
+
+bool compactsRays(const gpu::Context& context, const TraceScreenSettings& settings) {
+    const bool compacts = settings.compaction == RayCompaction::always ||
+                          (settings.compaction == RayCompaction::device && !context.isCpu());
+    return compacts && settings.method == TraceMethod::hiz && settings.maxSteps > phaseEnds[0];
+}
+
+std::vector<MarchPhase> marchPhases(gpu::PassList& f, const TraceScreenSettings& settings, VkDeviceSize rays) {
+    std::vector<MarchPhase> phases{{.end = settings.maxSteps}};
+    if (!compactsRays(f.context(), settings)) {
+        return phases;
+    }
+    for (const uint32_t end : phaseEnds) {
+        rays = (rays + 1) / 2;  // the others, if there are more, end in their phase
+        if (end < settings.maxSteps) {
+            const gpu::BufferView list = f.buffer("unfinished", rayListHeader + rays * sizeof(UnfinishedRay));
+            clearRayList(f, list);
+            phases.back().end = end;
+            phases.back().longer = list;
+            phases.push_back({.first = end, .end = settings.maxSteps, .unfinished = list});
+        }
+    }
+    return phases;
+}
+
+std::string nameOf(const MarchPhase& phase) {
+    return phase.first > 0 ? "." + std::to_string(phase.first) : "";
+}
+
+gpu::ComputePass& bindMarchPhase(gpu::ComputePass& pass, const MarchPhase& phase, gpu::BufferView spareToRead,
+                                 gpu::BufferView spareToWrite) {
+    return pass.constant("continues", phase.unfinished ? 1U : 0U)
+        .constant("collects", phase.longer ? 1U : 0U)
+        .read("unfinished", phase.unfinished ? phase.unfinished : spareToRead)
+        .write("longer", phase.longer ? phase.longer : spareToWrite);
+}
 
 gpu::ComputePass& bindScreenLight(gpu::PassList& f, gpu::ComputePass& pass, const ScreenImages& seen,
                                   TraceScreenParams params) {
@@ -102,13 +146,22 @@ gpu::ComputePass& bindScreen(gpu::PassList& f, gpu::ComputePass& pass, const Scr
 
 void traceScreen(gpu::PassList& f, Rays& rays, const ScreenImages& screen, const TraceScreenSettings& settings,
                  float longest) {
-    record(f, f.compute("trace_screen", "trace_screen.comp"), rays, {screen}, settings, longest);
+    const gpu::Image& images = rays.direction;
+    const gpu::BufferView missed = makeRayList(f, rays);
+    for (const MarchPhase& phase :
+         marchPhases(f, settings, VkDeviceSize(images.size.x) * images.size.y * images.layers)) {
+        record(f, f.compute("trace_screen" + nameOf(phase), "trace_screen.comp"), rays, {screen}, settings, longest,
+               phase, missed);
+    }
+    rays.waiting = missed;
 }
 
 void traceMirror(gpu::PassList& f, Rays& rays, const PlanarView& mirror, const TraceScreenSettings& settings,
                  float longest) {
+    const gpu::BufferView missed = makeRayList(f, rays);
     record(f, f.compute("trace_mirror", "trace_screen.comp"), rays,
-           {mirror.seen, throughOf(mirror.form), mirror.mirror}, settings, longest);
+           {mirror.seen, throughOf(mirror.form), mirror.mirror}, settings, longest, {.end = settings.maxSteps}, missed);
+    rays.waiting = missed;
 }
 
 }  // namespace reflet

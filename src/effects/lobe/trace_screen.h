@@ -24,6 +24,12 @@ CHOICES(TraceMethod, TRACE_METHODS)
     OPTION(ThicknessMode, secondLayer, 2)
 CHOICES(ThicknessMode, THICKNESSES)
 
+#define RAY_COMPACTIONS(OPTION)      \
+    OPTION(RayCompaction, device, 0) \
+    OPTION(RayCompaction, never, 1)  \
+    OPTION(RayCompaction, always, 2)
+CHOICES(RayCompaction, RAY_COMPACTIONS)
+
 #define HIT_LIGHTS(OPTION)      \
     OPTION(HitLight, direct, 0) \
     OPTION(HitLight, lit, 1)    \
@@ -58,6 +64,10 @@ CHOICES(EmittersAtHits, EMITTERS_AT_HITS)
     VALUE(uint, maxSteps, 128, 1, 4096,                                                                                \
           "Maximum steps per ray; a ray that runs out of steps is a miss. More: longer reach, higher cost. "           \
           "exhaustive ignores it.")                                                                                    \
+    CHOICE(RayCompaction, compaction, device,                                                                          \
+           "Whether rays that have not ended after 32 and 64 steps are collected, and go on side by side (hiz). The "  \
+           "picture is the same. device: on GPUs, whose waves of 32 or 64 rays wait for the longest; on CPU devices "  \
+           "lists cost more than they save. never, always: for comparison.")                                           \
     SWITCH(jitter, 1,                                                                                                  \
            "Start each ray at a random fraction of its first step (linear, halving, dda): banding becomes noise.")     \
     VALUE(uint, binarySteps, 0, 0, 16,                                                                                 \
@@ -104,7 +114,9 @@ struct TraceScreenParams {
     ViewParams view;  // in which they are traced
     MirrorParams mirror;
     TraceScreenSettings settings;
-    float longest;  // maximum ray length, metres
+    float longest;   // maximum ray length, metres
+    uint firstStep;  // march_phases.glsl
+    uint endStep;
     uint firstRay;
     uint previousValid;  // 0: there is no last frame
 };
@@ -118,6 +130,7 @@ SHARED_END
 #include "gpu/pass_list.h"
 
 #include <string>
+#include <vector>
 
 namespace reflet {
 
@@ -144,6 +157,28 @@ gpu::ComputePass& bindScreenLight(gpu::PassList& f, gpu::ComputePass& pass, cons
 /// The same for screen_hit.glsl. imageMotion: of Rays; may be none.
 gpu::ComputePass& bindScreen(gpu::PassList& f, gpu::ComputePass& pass, const ScreenImages& seen,
                              const TraceScreenParams& params, gpu::Image imageMotion);
+
+/// A pass over rays that have made `first` steps, until they have made `end`.
+struct MarchPhase {
+    uint32_t first = 0;
+    uint32_t end = 0;
+    gpu::BufferView unfinished;  ///< list of the rays; none: they have not begun
+    gpu::BufferView longer;      ///< empty list for those that do not end in it; none: all do
+};
+
+/// Whether rays that have not ended are collected, by the settings and the device.
+bool compactsRays(const gpu::Context& context, const TraceScreenSettings& settings);
+
+/// The passes that march `rays` rays, by the settings and the device.
+std::vector<MarchPhase> marchPhases(gpu::PassList& f, const TraceScreenSettings& settings, VkDeviceSize rays);
+
+/// What the names of passes that go on end with.
+std::string nameOf(const MarchPhase& phase);
+
+/// Binds what march_phases.glsl declares, but for its part of the params. spare: buffers to bind in place of lists that
+/// the phase has not: to read, to write.
+gpu::ComputePass& bindMarchPhase(gpu::ComputePass& pass, const MarchPhase& phase, gpu::BufferView spareToRead,
+                                 gpu::BufferView spareToWrite);
 
 /// Gives rays that hit a visible surface the light there; the others stay in rays.waiting. longest: maximum length of
 /// the lobe's rays [m].
