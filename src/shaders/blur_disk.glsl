@@ -11,6 +11,8 @@ vec2 nextSpoke(vec2 spoke) {
 // Distance of a tap from the middle, 0 to 1.
 float tapReach(int tap, int taps) { return sqrt((float(tap) + 0.5) / float(taps)); }
 
-float tapWeight(float reach) { return exp(-1.5 * reach * reach); }
+// A tap's weight, exp(-1.5 reach²), and that of the next one.
+float firstTapWeight(int taps) { return exp(-0.75 / float(taps)); }
+float nextTapWeight(float weight, int taps) { return weight * exp(-1.5 / float(taps)); }
 
 #endif

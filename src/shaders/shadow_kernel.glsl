@@ -25,7 +25,8 @@ float heightAbove(ScreenPlane plane, vec2 o, float depthStep) {
 }
 
 bool onSurface(ScreenPlane plane, vec2 o, float depthStep) {
-    return abs(heightAbove(plane, o, depthStep)) <= max(length(o), 1.0);
+    float height = heightAbove(plane, o, depthStep);
+    return height * height <= max(dot(o, o), 1.0);
 }
 
 // Symmetric 2x2 matrices as (xx, xy, yy).

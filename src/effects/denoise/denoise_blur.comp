@@ -73,10 +73,15 @@ float noiseAt(ivec2 pixel, ivec2 size, float frames) {
 // history takes its light from neighbours with a longer one. Not 0, for pixels that have no history yet.
 float trust(float frames) { return clamp(frames, 0.25, lobe == 0u ? trustedFrames : trustedFramesReflections); }
 
-// Edge-stopping weight of reflections by the angle between both mirror directions, relative to the lobe's width.
-float reflectsAlike(KeptSurface a, KeptSurface b) {
-    float width = max(ggxConeTangent(a.roughness * a.roughness), 0.01);
-    return exp(-4.0 * max(1.0 - dot(a.normal, b.normal), 0.0) / (width * width));
+// Edge-stopping weight of reflections by the angle between both mirror directions. sharpness: see sharpnessOf.
+float reflectsAlike(KeptSurface a, KeptSurface b, float sharpness) {
+    return exp(-sharpness * max(1.0 - dot(a.normal, b.normal), 0.0));
+}
+
+// Of the lobe, by its width.
+float sharpnessOf(float roughness) {
+    float width = max(ggxConeTangent(roughness * roughness), 0.01);
+    return 4.0 / (width * width);
 }
 
 void main() {
@@ -100,26 +105,27 @@ void main() {
     vec3 normals = weights * own.normal;
     // Below half a pixel nothing changes. The trip count is dynamic on purpose: see hardVisibility (shadow_map.glsl).
     int count = radius < 0.5 ? 0 : taps;
+    float near = firstTapWeight(taps);
+    float sharpness = sharpnessOf(own.roughness);
     for (int i = 0; i < count; ++i) {
-        float reach = tapReach(i, taps);
-        ivec2 at = pixel + ivec2(round(reach * spoke));
+        ivec2 o = ivec2(round(tapReach(i, taps) * spoke));
         spoke = nextSpoke(spoke);
-        if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, size))) {
-            continue;
-        }
+        ivec2 at = clamp(pixel + o, ivec2(0), size - 1);
+        // All loads at once, without a branch: a GPU waits for them once.
         KeptSurface there = unpackSurface(imageLoad(surface, at).xy);
-        vec2 o = vec2(at - pixel);
-        if (there.depth > 0.0 && onSurface(plane, o, there.depth - own.depth)) {
-            float same = hasDirectional != 0u ? normalSimilarity(own, there) : surfaceSimilarity(own, there, lobe);
-            same *= lobe == 0u ? 1.0 : reflectsAlike(own, there);
-            float weight = tapWeight(reach) * same * trust(imageLoad(moments, at).x);
-            sum += weight * imageLoad(from, at);
-            if (hasDirectional != 0u) {
-                turning += weight * imageLoad(directional, at);
-                normals += weight * there.normal;
-            }
-            weights += weight;
+        vec4 light = imageLoad(from, at);
+        float frames = imageLoad(moments, at).x;
+        float same = hasDirectional != 0u ? normalSimilarity(own, there) : surfaceSimilarity(own, there, lobe);
+        same *= lobe == 0u ? 1.0 : reflectsAlike(own, there, sharpness);
+        bool counts = there.depth > 0.0 && at == pixel + o && onSurface(plane, vec2(o), there.depth - own.depth);
+        float weight = counts ? near * same * trust(frames) : 0.0;
+        near = nextTapWeight(near, taps);
+        sum += weight * light;
+        if (hasDirectional != 0u) {
+            turning += weight * imageLoad(directional, at);
+            normals += weight * there.normal;
         }
+        weights += weight;
     }
     if (hasDirectional != 0u) {
         sum.rgb *= relightFactor(turning, normals / weights, own.normal);

@@ -35,9 +35,9 @@ void main() {
     float turn = 6.2831853 * hashToUnit(hashPixel(uvec2(pixel), 97u + uint(slot.z), params.frame));
     vec2 spoke = params.radius * vec2(cos(turn), sin(turn));
     vec4 sum = light;
+    float near = firstTapWeight(taps);
     for (int i = 0; i < taps; ++i) {
-        float reach = tapReach(i, taps);
-        ivec2 at = pixel + ivec2(round(reach * spoke));
+        ivec2 at = pixel + ivec2(round(tapReach(i, taps) * spoke));
         spoke = nextSpoke(spoke);
         ivec3 other = ivec3(at, slot.z);
         vec4 there = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, size)) ? imageLoad(hitLight, other) : vec4(0.0);
@@ -45,8 +45,9 @@ void main() {
             float away = imageLoad(hitFactor, other).a;
             float facing = max(dot(unpackUnitVector(imageLoad(hitNormal, other).r), normal), 0.0);
             float same = exp2(-abs(away - factor.a) / (sameDistance * max(max(away, factor.a), 1e-6)));
-            sum += tapWeight(reach) * pow(facing, 8.0) * same * there;
+            sum += near * pow(facing, 8.0) * same * there;
         }
+        near = nextTapWeight(near, taps);
     }
     vec4 found = imageLoad(answer, slot);
     found.rgb = clampToHalf(found.rgb + factor.rgb * sum.rgb / sum.a);
