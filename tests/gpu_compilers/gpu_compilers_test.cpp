@@ -127,11 +127,14 @@ TEST(GpuAssembly, LoopsAreFoundWithTheirInstructions) {
         "BB2:\n\timage_sample v1, v[0:1], s[0:7]\n\ts_waitcnt vmcnt(0)\n\tv_rcp_f32_e32 v1, v1\n\ts_cbranch_scc1 BB2   "
         "; bf85fff0\n"
         "BB3:\n\ts_branch BB1\n"
-        "BB4:\n\timage_store v0, v[2:3], s[0:7]\n\ts_endpgm\n");
+        "BB4:\n\timage_load v4, v[0:1], s[0:7]\n\timage_load v5, v[2:3], s[0:7]\n\ts_waitcnt vmcnt(1)\n\ts_waitcnt "
+        "vmcnt(0)\n"
+        "BB5:\n\timage_store v0, v[2:3], s[0:7]\n\ts_endpgm\n");
     ASSERT_EQ(loops.size(), 3U);
     EXPECT_EQ(loops[0].instructions.vector, 1U);
     EXPECT_EQ(loops[0].instructions.constants, 1U);
     EXPECT_EQ(loops[0].instructions.stores, 1U);
+    EXPECT_EQ(loops[0].instructions.memoryWaits, 1U) << "both loads were under way";
     EXPECT_EQ(loops[1].parent, 0);
     EXPECT_FALSE(loops[1].innermost);
     EXPECT_EQ(loops[1].instructions.sum(), 2U);

@@ -48,15 +48,19 @@ std::vector<Block> blocksOf(std::string_view assembly) {
     return blocks;
 }
 
-void count(Instructions& to, const Line& line) {
+// issued: whether memory was read since the last wait: further waits for the same loads take little.
+void count(Instructions& to, const Line& line, bool& issued) {
     const std::string_view op = line.operation;
     if (op.starts_with("s_waitcnt")) {
-        to.memoryWaits += contains(line.arguments, "vmcnt") ? 1 : 0;
+        const bool waits = issued && contains(line.arguments, "vmcnt");
+        to.memoryWaits += waits ? 1 : 0;
+        issued = issued && !waits;
         to.sharedWaits += contains(line.arguments, "lgkm") ? 1 : 0;
     } else if (op.starts_with("v_")) {
         ++(startsWithAny(op, "v_rcp", "v_rsq", "v_sqrt", "v_exp", "v_log", "v_sin", "v_cos") ? to.transcendental
                                                                                              : to.vector);
     } else if (startsWithAny(op, "image_", "buffer_", "global_", "scratch_")) {
+        issued = issued || !contains(op, "store");
         ++(contains(op, "store")                                          ? to.stores
            : contains(op, "atomic")                                       ? to.atomics
            : contains(op, "image_sample") || contains(op, "image_gather") ? to.samples
@@ -112,10 +116,11 @@ std::vector<Loop> loopsOf(std::string_view assembly) {
         loops.push_back({static_cast<int>(parent), true, {}});
         ranges.emplace_back(first, last);
     }
+    bool issued = false;
     for (size_t i = 0; i < blocks.size(); ++i) {
         Instructions& to = loops[innermostAt(i)].instructions;
         for (const Line& line : blocks[i].lines) {
-            count(to, line);
+            count(to, line, issued);
         }
     }
     return loops;

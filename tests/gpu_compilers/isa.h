@@ -18,7 +18,7 @@ struct Instructions {
     uint32_t atomics = 0;
     uint32_t constants = 0;    ///< scalar loads
     uint32_t shared = 0;       ///< of shared memory
-    uint32_t memoryWaits = 0;  ///< waits for loads and samples
+    uint32_t memoryWaits = 0;  ///< waits for loads and samples that were issued after the last such wait
     uint32_t sharedWaits = 0;  ///< waits for shared memory or constants
 
     [[nodiscard]] uint32_t sum() const {

@@ -22,19 +22,14 @@ void main() {
     vec3 sum = vec3(0.0);
     float smoothest = 1.0;
     for (int y = first.y; y < end.y; ++y) {
-        for (int x = first.x; x < end.x; ++x) {
-            if (texelFetch(depth, ivec2(x, y), 0).r <= 0.0) {
-                continue;
-            }
-            vec4 light = imageLoad(radiance, ivec2(x, y));
-            if (meanRays > 0u && light.a < 0.0) {
-                continue;
-            }
+        for (int i = 0; i < int(denoiseTileSide); ++i) {  // a known number without branches: the loads of a row are under way at once
+            ivec2 pixel = ivec2(min(first.x + i, end.x - 1), y);
+            vec4 light = imageLoad(radiance, pixel);
+            float roughness = lobe == 1u ? texelFetch(material, pixel, 0).r : 1.0;
+            bool counts = texelFetch(depth, pixel, 0).r > 0.0 && first.x + i < end.x && (meanRays == 0u || light.a >= 0.0);
             float bright = luminance(clampToHalf(light.rgb));
-            sum += vec3(bright, bright * bright, 1.0);
-            if (lobe == 1u) {
-                smoothest = min(smoothest, texelFetch(material, ivec2(x, y), 0).r);
-            }
+            sum += counts ? vec3(bright, bright * bright, 1.0) : vec3(0.0);
+            smoothest = counts ? min(smoothest, roughness) : smoothest;
         }
     }
     // Bright pixels in a mirror are detail, not noise.

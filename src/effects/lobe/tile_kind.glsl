@@ -18,15 +18,15 @@ TileContent tileContent(ivec2 first, ivec2 end) {
     uint glossy = 0u;
     float smoothest = 1.0;
     for (int y = first.y; y < end.y; ++y) {
-        for (int x = first.x; x < end.x; ++x) {
-            if (loadDepth(ivec2(x, y)) > 0.0) {
-                MaterialTexel m = loadMaterial(ivec2(x, y));
-                bool shines = (m.flags & materialFlagLambert) == 0u;
-                surfaces += 1u;
-                smoothest = shines ? min(smoothest, m.roughness) : smoothest;
-                mirrors += shines && m.roughness <= mirrorRoughness ? 1u : 0u;
-                glossy += shines && m.roughness > mirrorRoughness ? 1u : 0u;
-            }
+        for (int i = 0; i < int(rayTileSide); ++i) {  // a known number without branches: the loads of a row are under way at once
+            ivec2 pixel = ivec2(min(first.x + i, end.x - 1), y);
+            MaterialTexel m = loadMaterial(pixel);
+            bool exists = loadDepth(pixel) > 0.0 && first.x + i < end.x;
+            bool shines = exists && (m.flags & materialFlagLambert) == 0u;
+            surfaces += exists ? 1u : 0u;
+            smoothest = shines ? min(smoothest, m.roughness) : smoothest;
+            mirrors += shines && m.roughness <= mirrorRoughness ? 1u : 0u;
+            glossy += shines && m.roughness > mirrorRoughness ? 1u : 0u;
         }
     }
     uint kind = glossy > 0u ? tileGlossy : (mirrors > 0u ? tileMirror : (surfaces > 0u ? tileMatt : tileSky));

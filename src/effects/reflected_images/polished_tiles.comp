@@ -27,8 +27,8 @@ void main() {
     ivec2 end = min(first + int(rayTileSide), ivec2(params.size));
     bool polished = false;
     for (int y = first.y; y < end.y; ++y) {
-        for (int x = first.x; x < end.x; ++x) {
-            ivec2 pixel = ivec2(x, y);
+        for (int i = 0; i < int(rayTileSide); ++i) {  // a known number: the loads of a row are under way at once
+            ivec2 pixel = ivec2(min(first.x + i, end.x - 1), y);
             float d = texelFetch(depth, pixel, 0).r;
             float roughness = unpackMaterial(texelFetch(material, pixel, 0)).roughness;
             polished = polished || (d > 0.0 && roughness < roughestImage);

@@ -22,12 +22,13 @@ void main() {
     float highest = 0.0;
     float widest = 0.0;
     for (int y = first.y; y < end.y; ++y) {
-        for (int x = first.x; x < end.x; ++x) {
-            float v = imageLoad(visibility, ivec2(x, y)).r;
+        for (int i = 0; i < int(shadowTileSide); ++i) {  // a known number: the loads of a row are under way at once
+            ivec2 pixel = ivec2(min(first.x + i, end.x - 1), y);
+            float v = imageLoad(visibility, pixel).r;
             lowest = min(lowest, v);
             highest = max(highest, v);
-            widest = max(widest, imageLoad(penumbra, ivec2(x, y)).r);
-            imageStore(cleaned, ivec2(x, y), vec4(v));
+            widest = max(widest, imageLoad(penumbra, pixel).r);
+            imageStore(cleaned, pixel, vec4(v));
         }
     }
     if (lowest < 1.0 && highest > 0.0 && widest > 0.0) {
