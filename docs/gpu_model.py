@@ -32,7 +32,7 @@ TRIPS = {
     "specular.trace_screen": [1, 1, 32], "specular.trace_screen.32": [1, 1, 32], "specular.trace_screen.64": [1, 64],
     "shadow_visibility": [1, 1, 12, 6, 6],
     "diffuse.denoise_gather": [9, 4, 0.3], "specular.denoise_gather": [9, 2.5, 0.3, 4, 0.3], "denoise_blur": [8],
-    "temporal": [4, 4, 3], "tiles": [8, 8], "dof.coc": [2.7], "dof.highlights": [5.1, 6],
+    "temporal": [4, 4, 3], "temporal.upscale": [4, 3], "tiles": [8, 8], "dof.coc": [2.7], "dof.highlights": [5.1, 6],
     "dof.composite.5": [3, 2], "dof.composite.6": [4, 4], "dof.composite.7": [4, 4, 3, 2],
     "dof.reach": [11], "dof.gather": [6, 46, 46, 4], "dof.gather_large": [6, 46, 46], "exposure.smooth": [16] + [20] * 10,
     "exposure.meter": [5, 5],
