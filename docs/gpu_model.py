@@ -32,7 +32,7 @@ TRIPS = {
     "specular.trace_screen": [1, 1, 32], "specular.trace_screen.32": [1, 1, 32], "specular.trace_screen.64": [1, 64],
     "shadow_visibility": [1, 1, 12, 6, 6],
     "diffuse.denoise_gather": [9, 4, 0.3], "specular.denoise_gather": [9, 2.5, 0.3, 4, 0.3], "denoise_blur": [8],
-    "temporal": [4, 4, 3], "temporal.upscale": [4, 3], "tiles": [8, 8], "dof.coc": [2.7], "dof.highlights": [5.1, 6],
+    "temporal": [4, 4, 3], "temporal.upscale": [4, 3], "ao.slices_at_once": [2, 6, 6], "diffuse.slices_at_once": [2, 8, 8], "tiles": [8, 8], "dof.coc": [2.7], "dof.highlights": [5.1, 6],
     "dof.composite.5": [3, 2], "dof.composite.6": [4, 4], "dof.composite.7": [4, 4, 3, 2],
     "dof.reach": [11], "dof.gather": [6, 46, 46, 4], "dof.gather_large": [6, 46, 46], "exposure.smooth": [16] + [20] * 10,
     "exposure.meter": [5, 5],
@@ -94,7 +94,7 @@ def seconds(gpu, one, kernel, pixels):
 def frame(stats, preset, gpu):
     """[(label, seconds, what bounds it)]"""
     recorded = stats["frames"][preset]
-    pixels = (1920 * 1080) if preset in ("quality", "options") else 960 * 540
+    pixels = (1920 * 1080) if preset in ("quality", "options", "horizon") else 960 * 540
     for p in recorded["passes"]:
         if "list=" in p["kernel"] and p["label"] == "dof.composite":  # a dispatch for each list of tiles
             p["label"] += "." + p["kernel"].split("list=")[1]
@@ -122,6 +122,12 @@ def page(stats):
     for name in [g for g in GROUPS if g in labels] + sorted(labels - set(GROUPS)):
         print(f"| {name} | " + " | ".join(f"{1e3 * sum(r[1] for r in rows if group(r[0]) == name):.2f}" for rows in sums.values()) + " |")
     print("| **total** | " + " | ".join(f"{1e3 * sum(r[1] for r in rows):.2f}" for rows in sums.values()) + " |")
+    print("\nAmbient occlusion alone, at full size with 2 slices of 6 steps to each side:\n\n| ms | " + " | ".join(names)
+          + " |\n|---|--:|--:|")
+    for method, preset in (("horizon", "horizon"), ("bitmask", "options")):
+        for what, parts in (("slices", ("ao.slices_at_once",)), ("denoising", ("ao.denoise", "ao.classify", "ao.finish"))):
+            times = [sum(r[1] for r in frame(stats, preset, GPUS[n]) if r[0].startswith(parts)) for n in names]
+            print(f"| `{method}`, {what} | " + " | ".join(f"{1e3 * t:.2f}" for t in times) + " |")
     print("\n## How wrong it is\n\nThe same model of an H100 beside what [gpu.md](gpu.md) has measured: `quality`, `builtin:cave`. The program's frames are not "
           "the library's: the program has planar reflections and probes, and its scene decides how far rays go. Measured before a step of a "
           "ray was one load, and before rays went on in phases: for these passes the modelled times are those of a faster build.\n\n"

@@ -105,6 +105,7 @@ const std::vector<FrameCase>& frameCases() {
         {"fast", "fast", half, full, {}},
         {"balanced", "balanced", half, full, {}},
         {"quality", "quality", full, full, {}},
+        {"horizon", "quality", full, full, {{"ao.method", "horizon"}}},
         {"options",
          "quality",
          full,

@@ -11,6 +11,9 @@ ViewParams own = rayParams.view;
 
 bool coversFromBehind() { return ambient != 0u || rejectsBackfaces == 0u; }
 
+float loadSliceDepth(ivec2 pixel) { return texelFetch(ownDepth, pixel, 0).r; }
+vec3 loadSliceNormal(ivec2 pixel) { return unpackUnitVector(texelFetch(ownGeometricNormal, pixel, 0).r); }
+
 SliceTexel loadSlice(ivec2 pixel) {
     if (ambient != 0u) {
         SliceTexel t = SliceTexel(texelFetch(ownDepth, pixel, 0).r, params.slice.thickness,
@@ -58,8 +61,15 @@ SliceLight traceSlice(SliceOrigin from, RayNumber number) {
     uint hash = hashPixel(uvec2(from.pixel), number.index * 2u + 1u + hashPcg(own.seed), own.frame);
     vec2 u = hashToUnit2(hash);
     vec2 shift = hashToUnit2(hashPcg(hash ^ 0x68bc21ebu));
-    SliceSide ahead = walkSide(s, 1.0, from.pixel, from.depth, from.normal, params.slice, shift.x, u.x);
-    SliceSide back = walkSide(s, -1.0, from.pixel, from.depth, from.normal, params.slice, shift.y, u.x);
+    SliceSide ahead;
+    SliceSide back;
+    if (ambient != 0u && sliceHorizon != 0u) {
+        ahead = walkHorizon(s, 1.0, from.pixel, from.depth, from.normal, params.slice, shift.x, u.x);
+        back = walkHorizon(s, -1.0, from.pixel, from.depth, from.normal, params.slice, shift.y, u.x);
+    } else {
+        ahead = walkSide(s, 1.0, from.pixel, from.depth, from.normal, params.slice, shift.x, u.x);
+        back = walkSide(s, -1.0, from.pixel, from.depth, from.normal, params.slice, shift.y, u.x);
+    }
     SliceRest rest = restOf(s, ahead, back, u.x, u.y);
     vec4 covered = ahead.light + back.light;
     return SliceLight(vec4(clampToHalf(covered.rgb), covered.a), ahead.turning + back.turning, rest.open,
