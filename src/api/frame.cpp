@@ -86,10 +86,6 @@ ScreenImages screenForLobe(RefletView_T& view, Frame& frame, const Settings& set
                                  frame.diffuse ? &*frame.diffuse : nullptr);
 }
 
-LobeStore& storeOf(RefletView_T& view, uint32_t lobe) {
-    return lobe == lobeDiffuse ? view.store->diffuse : view.store->specular;
-}
-
 // The picture so far, with this radiance or what came of the last effect.
 lighting::Light lightWith(const Frame& frame, gpu::Image radiance) {
     lighting::Light light = lighting::lightOf(frame, radiance);
@@ -254,7 +250,7 @@ LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings,
                      const LobeInputsOfHost& in) {
     const ScreenImages screen = screenForLobe(view, frame, settings, lobe, in);
     const lighting::HostLight own = hostLight(view, frame, settings, lobe, in.sources);
-    const LobeLight traced = lighting::traceLobe(view.recorder, &storeOf(view, lobe), frame.context, settings, lobe,
+    const LobeLight traced = lighting::traceLobe(view.recorder, &view.store->of(lobe), frame.context, settings, lobe,
                                                  frame, screen, lighting::sourcesOf(own));
     (lobe == lobeDiffuse ? frame.diffuse : frame.specular) = traced;
     finishCall(view, frame);
@@ -265,7 +261,7 @@ MissedRays recordMissedRays(RefletView_T& view, Frame& frame, const Settings& se
                             const LobeInputsOfHost& in) {
     const ScreenImages screen = screenForLobe(view, frame, settings, lobe, in);
     const lighting::HostLight own = hostLight(view, frame, settings, lobe, in.sources);
-    frame.pending = lighting::beginLobe(view.recorder, &storeOf(view, lobe), frame.context, settings, lobe, frame,
+    frame.pending = lighting::beginLobe(view.recorder, &view.store->of(lobe), frame.context, settings, lobe, frame,
                                         screen, lighting::sourcesOf(own));
     frame.pendingLight = {own.image, own.probes, {}};
     view.recorder.keep(own.image.light);
@@ -276,7 +272,7 @@ MissedRays recordMissedRays(RefletView_T& view, Frame& frame, const Settings& se
 LobeLight recordAnswers(RefletView_T& view, Frame& frame) {
     const lighting::PendingLobe pending = *frame.pending;
     frame.pending.reset();
-    const LobeLight answered = lighting::finishLobe(view.recorder, &storeOf(view, pending.lobe), frame.context, frame,
+    const LobeLight answered = lighting::finishLobe(view.recorder, &view.store->of(pending.lobe), frame.context, frame,
                                                     pending, lighting::sourcesOf(frame.pendingLight).others);
     (pending.lobe == lobeDiffuse ? frame.diffuse : frame.specular) = answered;
     finishCall(view, frame);
@@ -290,7 +286,7 @@ LobeLight recordDenoise(RefletView_T& view, Frame& frame, const Settings& settin
     gpu::PassList& f = view.recorder;
     const gpu::Image radiance = radianceWithHistory(view, frame, settings, view.store->lobePeaks[lobe], noisy, true);
     const LobeLight clean =
-        lighting::denoiseLobe(f, storeOf(view, lobe), frame.context, settings, lobe, frame, radiance);
+        lighting::denoiseLobe(f, view.store->of(lobe), frame.context, settings, lobe, frame, radiance);
     (lobe == lobeDiffuse ? frame.diffuse : frame.specular) = clean;
     finishCall(view, frame);
     return clean;

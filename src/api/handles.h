@@ -84,6 +84,8 @@ struct ViewStore {
     std::array<std::optional<KnownEnvironment>, 2> environments;  ///< of the lobes
     uint64_t lastGeneration = UINT64_MAX;                         ///< of the recorder in the last frame
     uint32_t environmentRests = UINT32_MAX / 2;                   ///< frames that began since one of them changed
+
+    LobeStore& of(uint32_t lobe) { return lobe == lobeDiffuse ? diffuse : specular; }
 };
 
 /// What has been recorded of the current frame.

@@ -62,7 +62,7 @@ void noteEnvironment(RefletView_T& view, uint32_t lobe, const EnvironmentInputs&
     if (known && *known != now) {
         own.environmentRests = 0;
         if (isStep(known->factor, now.factor)) {
-            (lobe == lobeDiffuse ? own.diffuse : own.specular) = {};
+            own.of(lobe) = LobeStore();  // GCC 12 makes of `(a ? b : c) = {}` what no constructor has made
             view.composedLast = false;
         }
     }

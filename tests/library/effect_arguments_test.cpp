@@ -99,7 +99,7 @@ TEST_F(EffectArguments, OfProbesAndPlanarViews) {
         expectProbeError("radiance.width", [](auto& p) { p.radiance.width = 8; });
         expectProbeError("radianceLevels", [](auto& p) { p.radianceLevels = 6; });
         expectProbeError("alphaIsCoverage", [](auto& p) { p.alphaIsCoverage = 2; });
-        expectProbeError("irradianceKind", [](auto& p) { p.irradianceKind = RefletIrradianceKind(-1); });
+        expectProbeError("irradianceKind", [](auto& p) { p.irradianceKind = RefletIrradianceKind(2); });
         std::array<float, 27> coefficients{};
         expectProbeError("sphericalHarmonics", [&](auto& p) {
             p.irradiance = cube_;
