@@ -310,7 +310,7 @@ lighting::Light recordComposite(RefletView_T& view, Frame& frame, const Settings
                                      .diffuse = lobeOr(frame.diffuse, lobeDiffuse),
                                      .specular = lobeOr(frame.specular, lobeSpecular),
                                      .limits = isEnvironmentNew(*view.store) ? bound.limits : gpu::Image{}};
-    const lighting::Light sum = lighting::compose(f, context, settings, frame, parts, true, litOf(view, frame).next);
+    lighting::Light sum = lighting::compose(f, context, settings, frame, parts, true, litOf(view, frame).next);
     lighting::measureLight(f, bound, sum.lit);
     frame.composed = sum.lit;
     f.keep(sum.indirectDiffuse);

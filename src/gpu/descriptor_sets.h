@@ -26,7 +26,7 @@ public:
 
 private:
     void writeKey(const PassRecord& pass, uint64_t uniformsId);
-    CachedSet& makeRoom(PassRecord& pass, VkDescriptorSetLayout layout, uint64_t finished);
+    static CachedSet& makeRoom(PassRecord& pass, VkDescriptorSetLayout layout, uint64_t finished);
     void allocate(CachedSet& entry, VkDescriptorSetLayout layout);
     void write(const PassRecord& pass, VkDescriptorSet set, VkBuffer uniforms);
 

@@ -106,7 +106,7 @@ private:
 ///
 /// When the size of the frames changes (PassList::setSizes), what the last frame wrote is resampled into the image that
 /// would be `next`, and the two change places: no memory is needed for a third one.
-class HistoryImage {
+class HistoryImage {  // NOLINT(bugprone-reserved-identifier): of the assignment that the compiler makes
 public:
     explicit HistoryImage(std::string_view name) : name_(name) {}
 

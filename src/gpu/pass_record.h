@@ -37,6 +37,7 @@ public:
 
     template <class F>
     void emplace(F callback) {
+        // Of one F clang-tidy says that half of it is redundant. NOLINTNEXTLINE(misc-redundant-expression)
         if constexpr (sizeof(F) > capacity || alignof(F) > alignof(std::max_align_t)) {
             emplace([held = std::make_unique<F>(std::move(callback))](const DrawCommands& to) { (*held)(to); });
         } else {

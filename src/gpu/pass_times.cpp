@@ -44,7 +44,7 @@ void PassTimers::destroy(Frame& frame) {
     }
 }
 
-void PassTimers::reset(Frame& frame, VkCommandBuffer commands) {
+void PassTimers::reset(Frame& frame, VkCommandBuffer commands) const {
     frame.passes.clear();
     for (const VkQueryPool pool : frame.pools) {
         context_.vk.vkCmdResetQueryPool(commands, pool, 0, perPool);

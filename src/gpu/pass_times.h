@@ -43,7 +43,7 @@ public:
 
     void makePool(Frame& frame);
     void destroy(Frame& frame);
-    void reset(Frame& frame, VkCommandBuffer commands);
+    void reset(Frame& frame, VkCommandBuffer commands) const;
     void begin(Frame& frame, VkCommandBuffer commands, const Timed& pass);
     void end(Frame& frame, VkCommandBuffer commands);
     /// Replaces `times`: "frame" first, then the passes in recording order.

@@ -138,8 +138,8 @@ private:
     void start();
     void finish(Slot& slot);
     [[nodiscard]] Slot& slot() { return slots_[number_ % slots_.size()]; }
-    uint32_t listed(const Image& image);
-    uint32_t listed(const BufferView& buffer);
+    uint32_t listed(const Image& view);
+    uint32_t listed(const BufferView& view);
     void makeGraph();
     CachedPlan& planned();
     void place(CachedPlan& cached);

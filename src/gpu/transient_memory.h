@@ -147,7 +147,7 @@ private:
     struct InfoHash {
         size_t operator()(const ImageInfo& info) const {
             return (info.size.x + 16411U * size_t(info.size.y)) * 31 + static_cast<size_t>(info.format) * 131071 +
-                   info.mips * 7 + info.layers * 13;
+                   size_t(info.mips) * 7 + size_t(info.layers) * 13;
         }
     };
     static HeldUse useOf(const HeldImage& image, uint64_t frame, bool otherIsListed);

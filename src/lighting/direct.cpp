@@ -115,7 +115,7 @@ gpu::Image lampShadow(gpu::PassList& f, const ViewContext& in, const LightingSet
         shadows.lamps[shadows.count++] = lamp.shadow;
         block.lamps[block.count++] = lamp.shadow.lamp;
     }
-    const uint32_t most = f.context().limits().maxImageDimension2D / shadows.tileSize;
+    const uint32_t most = f.context().limits().maxImageDimension2D / std::max(shadows.tileSize, 1U);
     shadows.columns = static_cast<uint32_t>(std::ceil(std::sqrt(static_cast<float>(tiles))));
     if (shadows.columns > most) {
         failUsage("lamps: {} maps of {}x{} texels do not fit into one image of this device; give smaller or fewer maps",

@@ -84,7 +84,9 @@ private:
         const vec3 size = high - low;
         const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
         const float cut = 0.5F * (low[axis] + high[axis]);
-        const auto split = std::ranges::partition(order, [&](uint32_t i) { return middle(i)[axis] < cut; }).begin();
+        // Not of std::ranges: Clang 14 does not compile libstdc++'s.
+        const auto split =
+            std::partition(order.begin(), order.end(), [&](uint32_t i) { return middle(i)[axis] < cut; });
         const auto count = static_cast<size_t>(split - order.begin());
         if (count > 0 && count < order.size() && depth < mostBySpace) {
             return order.first(count);

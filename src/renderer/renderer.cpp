@@ -309,7 +309,7 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
         mirrors,
         live,
         lightChange,
-        backgroundOf(shown, view),
+        backgroundOf(shown, view),  // NOLINT(readability-suspicious-call-argument)
         exposesAutomatically(settings.tonemap, source_),
         static_cast<float>(std::abs(asked.time - previousTime_.value_or(asked.time))),
         size,
@@ -324,7 +324,7 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
     if (stop_) {
         frame_.runPassByPass(stop_);
     }
-    const FrameImages images = renderFrame(frame_, store_, inputs, settings);
+    FrameImages images = renderFrame(frame_, store_, inputs, settings);
     frame_.keep(images.display);
     if (after) {
         after(frame_, images);

@@ -165,10 +165,12 @@ std::pair<Group, Group> split(Group group) {
     }
     const vec3 size = box.size();
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto middle = std::ranges::partition(
-        group.parts, [&](const EmissiveSum& part) { return part.centre()[axis] < box.center()[axis]; });
-    Group other{.instance = group.instance, .parts = {middle.begin(), middle.end()}, .finest = group.finest};
-    group.parts.erase(middle.begin(), middle.end());
+    // Not of std::ranges: Clang 14 does not compile libstdc++'s.
+    const auto middle = std::partition(group.parts.begin(), group.parts.end(), [&](const EmissiveSum& part) {
+        return part.centre()[axis] < box.center()[axis];
+    });
+    Group other{.instance = group.instance, .parts = {middle, group.parts.end()}, .finest = group.finest};
+    group.parts.erase(middle, group.parts.end());
     if (group.parts.empty() || other.parts.empty()) {  // all in one place
         Group& all = group.parts.empty() ? other : group;
         all.sum = sumOf(all.parts);

@@ -127,8 +127,8 @@ struct DofImages {
 /// Whether the picture is blurred at all.
 bool blurs(const Lens& lens, const DofSettings& settings);
 
-/// coc: the history of DofImages::coc.
-DofImages depthOfField(gpu::PassList& f, gpu::HistoryImage& coc, const DofInputs& in);
+/// own: the history of DofImages::coc.
+DofImages depthOfField(gpu::PassList& f, gpu::HistoryImage& own, const DofInputs& in);
 
 }  // namespace reflet
 #endif

@@ -69,7 +69,7 @@ SHARED_END
 namespace reflet {
 
 /// What a host has, and how it means it. Images that are none have the defaults of reflet.h.
-struct HostSurfaces {
+struct HostSurfaces {  // NOLINT(clang-analyzer-optin.performance.Padding): in the order of reflet.h
     gpu::Image depth;
     bool reversed = true;
     gpu::Image normal;           ///< none: toward the camera

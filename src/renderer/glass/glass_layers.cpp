@@ -135,7 +135,7 @@ void followGlass(gpu::PassList& f, const NearestGlass& nearest, lighting::Light&
 ScreenImages screenBehind(gpu::PassList& f, const TracedView& seen, const Settings& refracted) {
     ScreenImages screen = seen.screen;
     if (!screen.pyramid && lighting::marchesPyramid(refracted)) {
-        lighting::Surfaces behind = seen.images;
+        lighting::Surfaces behind = seen.images;  // NOLINT(cppcoreguidelines-slicing): a copy to add the pyramid to
         screen.pyramid = lighting::depthPyramid(f, behind);
     }
     return screen;

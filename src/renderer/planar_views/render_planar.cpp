@@ -33,7 +33,7 @@ gpu::Image withProbeLight(gpu::PassList& f, const ViewInputs& in, const Settings
 LightLayers reflectingLight(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                             gpu::Image base, const LobeLight& diffuse, const BlendedSurfaces& blended) {
     const LobeLight specular = traceLobe(f, nullptr, in, settings, seen, lobeSpecular);
-    LightLayers light =
+    LightLayers light =  // NOLINTNEXTLINE(cppcoreguidelines-slicing): the layers are all that is wanted
         lighting::compose(f, contextOf(in, settings), settings, seen.images, {base, diffuse, specular}, false);
     light.direct = seen.images.direct;
     light = withCoats(f, in, settings, seen, light);

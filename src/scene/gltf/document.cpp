@@ -47,7 +47,7 @@ constexpr std::array<UnsupportedExtension, 2> unsupportedExtensions{
 
 /// How the rendered image differs from what the file asks for; empty if that is not known.
 std::string_view consequenceOf(std::string_view extension) {
-    const auto found = std::ranges::find(unsupportedExtensions, extension, &UnsupportedExtension::name);
+    const auto* const found = std::ranges::find(unsupportedExtensions, extension, &UnsupportedExtension::name);
     return found != unsupportedExtensions.end()                 ? found->consequence
            : extension.find("_materials_") != std::string::npos ? "materials will look different"
                                                                 : "";

@@ -20,7 +20,7 @@ struct GltfImagePlace {
     size_t offset = 0;
     size_t length = 0;
 
-    auto operator<=>(const GltfImagePlace&) const = default;
+    auto operator<=>(const GltfImagePlace&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// report: throws the problem of the image's buffer view, if it has one.

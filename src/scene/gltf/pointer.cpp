@@ -95,14 +95,15 @@ std::optional<size_t> indexOf(std::string_view token) {
 }
 
 bool findProperty(std::string_view path, GltfPointer& found) {
-    const auto row = std::ranges::find_if(rows, [&](const Row& r) { return r.of == found.of && r.path == path; });
+    const auto* const row =
+        std::ranges::find_if(rows, [&](const Row& r) { return r.of == found.of && r.path == path; });
     if (row != rows.end()) {
         found.property = row->property;
         found.components = row->components;
         return true;
     }
     const size_t at = path.find(transform);
-    const auto texture = std::ranges::find(gltfTexturePaths, path.substr(0, at));
+    const auto* const texture = std::ranges::find(gltfTexturePaths, path.substr(0, at));
     if (found.of != Of::material || at == std::string_view::npos || texture == gltfTexturePaths.end()) {
         return false;
     }
@@ -116,7 +117,7 @@ bool findProperty(std::string_view path, GltfPointer& found) {
 }  // namespace
 
 std::optional<GltfPointer> parseGltfPointer(std::string_view pointer) {
-    const auto array = std::ranges::find_if(arrays, [&](const Array& a) { return pointer.starts_with(a.path); });
+    const auto* const array = std::ranges::find_if(arrays, [&](const Array& a) { return pointer.starts_with(a.path); });
     if (array == arrays.end() || pointer.size() > longest) {
         return std::nullopt;
     }

@@ -98,6 +98,7 @@ std::vector<bool> usedNodes(const json& document, int scene) {
     UsedNodes nodes(document);
     const json& scenes = arrayIn(document, "scenes");
     if (scenes.empty()) {
+        // NOLINTNEXTLINE(modernize-return-braced-init-list): braces would make a list of two
         return std::vector<bool>(arrayIn(document, "nodes").size(), true);
     }
     const size_t chosen = scene >= 0 ? static_cast<size_t>(scene) : indexIn(document, "scene", 0);
