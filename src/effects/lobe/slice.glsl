@@ -9,7 +9,8 @@
 // slices count alike.
 //
 // The includer declares own (ViewParams of the image that is walked), and the constants sliceHorizon, sliceThickness and sliceLight;
-// it defines SliceTexel loadSlice(ivec2 pixel), float loadSliceDepth(ivec2 pixel) and vec3 loadSliceNormal(ivec2 pixel), of the same, and bool coversFromBehind().
+// it defines SliceTexel loadSlice(ivec2 pixel), float loadSliceDepth(ivec2 pixel) and vec3 loadSliceNormal(ivec2 pixel), of the
+// same, and bool coversFromBehind().
 #ifndef REFLET_SLICE_GLSL
 #define REFLET_SLICE_GLSL
 
