@@ -30,6 +30,8 @@ SliceTexel loadSlice(ivec2 pixel) {
     return SliceTexel(uintBitsToFloat(bits.x), ba.y, unpackUnitVector(bits.y), vec3(unpackHalf2x16(bits.z), ba.x));
 }
 
+#include "effects/lobe/slice_horizon.glsl"
+
 // What all slices of a pixel start from.
 struct SliceOrigin {
     ivec2 pixel;
