@@ -8,8 +8,8 @@
 float cosineToEye(vec2 place) { return place.x > 0.0 ? place.y * inversesqrt(max(dot(place, place), 1e-18)) : 1.0; }
 
 // No sample needs to know of another. The surface of the highest one goes on after it and began before it, on average by these
-// shares of a step (in the
-// logarithm): with half a step each, walls of known form factor are 4 % too dark, as the highest sample is often near the edge.
+// shares of a step (in the logarithm): with half a step each, walls of known form factor are 4 % too dark, as the highest sample
+// is often near the edge.
 const float goesOnAfter = 0.375;
 const float beganBefore = 0.25;
 
