@@ -48,8 +48,11 @@ bool appendUnfinished(RayItem ray, HizState state) {
     return true;
 }
 
-// Marches by hierarchical depth. Returns marchUnfinished if the ray is in `longer`.
+// Marches by the method of the settings. Returns marchUnfinished if the ray is in `longer`.
 MarchResult marchPhase(RayItem item, HizState state, MarchRay ray, MarchOptions o, MarchView view) {
+    if (method != TraceMethod_hiz) {
+        return marchBy(method, ray, o, view);
+    }
     uint from = continues != 0u ? params.firstStep : 0u;
     uint end = collects != 0u ? params.endStep : o.maxSteps;
     MarchResult hit;

@@ -8,7 +8,7 @@
 // A slice that contains a cosine-distributed direction is chosen with the probability of its share of the hemisphere, so all
 // slices count alike.
 //
-// The includer declares own (ViewParams of the image that is walked), and the constants sliceHorizon, sliceThickness and sliceLight;
+// The includer declares own (ViewParams of the image that is walked), and the constants sliceThickness and sliceLight;
 // it defines SliceTexel loadSlice(ivec2 pixel) and bool coversFromBehind().
 #ifndef REFLET_SLICE_GLSL
 #define REFLET_SLICE_GLSL
@@ -265,8 +265,8 @@ SliceSide walkSide(Slice s, float side, ivec2 pixel, float depth, vec3 n, SliceP
         if (other && (before.above < nearHorizon || solid && now.above < nearHorizon)) {
             start = coverGap(found, s, side, n, before, now, root, o, arc, dither);
         }
-        vec2 back = sliceHorizon != 0u ? vec2(arc.normal.y, -arc.normal.x) : now.place + thickness * below;
-        float under = sliceHorizon != 0u ? 1.0 : shareAbove(back, arc);
+        vec2 back = now.place + thickness * below;
+        float under = shareAbove(back, arc);
         found.behind |= now.covers ? ~sectorsBelow(uint(now.above * float(sectors) + dither)) : 0u;
         SliceStart top = SliceStart(now.above, now.place);
         SliceStart bottom = SliceStart(under, back);

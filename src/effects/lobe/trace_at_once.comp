@@ -65,12 +65,7 @@ bool traceOnScreen(RayOrigin from, HizState state, uint number, Ray ray, inout W
     MarchView view = marchView(params.view);
     MarchRay march = makeMarchRay(from.point, ray.direction, from.plane, view);
     MarchOptions options = screenOptions(from.pixel, number);
-    MarchResult hit;
-    if (method == TraceMethod_hiz) {
-        hit = marchPhase(RayItem(packSlot(ivec3(from.pixel, 0)), 0u, 0u), state, march, options, view);
-    } else {
-        hit = marchBy(method, march, options, view);
-    }
+    MarchResult hit = marchPhase(RayItem(packSlot(ivec3(from.pixel, 0)), 0u, 0u), state, march, options, view);
     if (collects != 0u && hit.outcome == marchUnfinished) {
         return true;
     }

@@ -40,7 +40,7 @@ MarchResult traceRay(ListedRay listed, MarchRay ray, MarchOptions o, MarchView v
     if (through == throughMirror && all(lessThan(abs(makeScreenRay(ray, o.maxDistance, view).delta.xy), vec2(1.0)))) {
         return marchExhaustive(ray, o, view);
     }
-    return method == TraceMethod_hiz ? marchPhase(listed.item, listed.state, ray, o, view) : marchBy(method, ray, o, view);
+    return marchPhase(listed.item, listed.state, ray, o, view);
 }
 
 RayAnswer traceAnswer(inout ListedRay listed, ivec3 slot, Ray ray, vec3 p, vec3 n, inout WaitingRay w) {
