@@ -126,7 +126,10 @@ typedef struct RefletContextInfo {
     VkPipelineCache pipelineCache;
     const void* pipelineCacheData; /**< what refletPipelineCacheData gave in an earlier run; NULL: none */
     size_t pipelineCacheDataSize;  /**< bytes */
-    /** Called with the text of every error; NULL: none. */
+    /**
+     * Called with the text of every error, and with REFLET_SUCCESS for what refletDescribe calls a contradiction, once
+     * for each view; NULL: none.
+     */
     void (*log)(void* user, RefletResult result, const char* text);
     void* logUser; /**< passed to log */
     /**
@@ -244,10 +247,14 @@ REFLET_API RefletResult refletResizeView(RefletView view, uint32_t width, uint32
  * Temporal upscaling: from the next frame on, refletTemporal makes pictures of this size, at least the frame's to each
  * side, from frames of the view's size or of RefletFrameInfo::renderSize. The host draws with mip bias log2(frame's
  * height / output's height) and the jitter of refletJitter, in pixels of the frame; what follows refletTemporal has the
- * output's size. A half to each side is the useful limit. 0, 0: the view's size.
+ * output's size. A half to each side is the useful limit. 0, 0: the view's size. Whether a frame is larger than this
+ * is known, and refused, once refletTemporal is called.
  */
 REFLET_API RefletResult refletSetOutputSize(RefletView view, uint32_t width, uint32_t height);
-/** Forgets all histories: after a cut of the camera, or when something other than motion changed the picture. */
+/**
+ * Forgets all histories, from the next frame on: after a cut of the camera, or when something other than motion changed
+ * the picture. Not between refletBeginFrame and refletEndFrame.
+ */
 REFLET_API RefletResult refletResetView(RefletView view);
 /**
  * The device has finished all frames that were begun so far: frees what only they used. Needed only by a view that
@@ -417,7 +424,7 @@ typedef struct RefletFrameInfo {
      */
     float lightChange;
     /**
-     * 1: where depth is 0, the picture that refletTemporal gets shows the environment of RefletIndirectLight as it is.
+     * 1: where no surface is, the picture that refletTemporal gets shows the environment of RefletIndirectLight as it is.
      * While the camera turns, refletTemporal then filters it over each pixel instead of following it, which keeps
      * stars. 0: it may show anything.
      */
@@ -587,8 +594,9 @@ REFLET_API RefletResult refletContactShadows(RefletView view, RefletSettings set
 typedef struct RefletEnvironment {
     size_t structSize; /**< required */
     /**
-     * Radiance, equirectangular: its upper edge is `worldUp`. With +Y up the centre is -Z, and u grows toward +X.
-     * Absent: `factor` is the radiance from everywhere.
+     * Radiance, equirectangular: its upper edge is `worldUp`. With +Y up the centre is -Z, and u grows toward +X, which
+     * is what a right-handed world sees. In a left-handed one (or one that is drawn mirrored) mirror the image from left
+     * to right. Absent: `factor` is the radiance from everywhere.
      */
     RefletImage image;
     float factor[3]; /**< times the image, 0 to 65504 / preExposure; all 0 and no image: black. With an image, all 0
@@ -596,7 +604,7 @@ typedef struct RefletEnvironment {
     float rotation;  /**< around `worldUp`, in radians */
     /**
      * World space; all 0 stands for +Y. Another one is the image with +Y up, turned by the shortest way that takes +Y
-     * there: with +Z up the centre is +Y.
+     * there: with +Z up the centre is +Y. For -Y it is turned around X: the centre is +Z.
      */
     float worldUp[3];
     /** Counts changes of the image's content: the maps made from it are made anew in the frame in which it changes. */
@@ -654,6 +662,11 @@ typedef struct RefletProbe {
      */
     const float* sphericalHarmonics;
     uint64_t revision; /**< counts changes of the content of its images */
+    /**
+     * Times all its radiance and irradiance, above 0; 0 stands for 1. Images are half floats inside: give bright
+     * surroundings divided by something, and that as the factor.
+     */
+    float factor;
 } RefletProbe;
 
 #define REFLET_MAX_PLANAR_VIEWS 4
@@ -770,7 +783,8 @@ REFLET_API RefletResult refletComposite(RefletView view, RefletSettings settings
 
 /**
  * Temporal antialiasing, RGBA16F of the output's size (refletSetOutputSize): radiance. color: of the frame's size,
- * drawn with the frame's jitter; NULL: what refletComposite made.
+ * drawn with the frame's jitter; NULL: what refletComposite made. Like all effects with a history (the sun's shadow,
+ * ambient occlusion, each lobe, depth of field) once in a frame of a view.
  */
 REFLET_API RefletResult refletTemporal(RefletView view, RefletSettings settings, const RefletImage* color,
                                        RefletImage* antialiased);
@@ -953,10 +967,11 @@ typedef struct RefletMissedRays {
 } RefletMissedRays;
 
 /**
- * Records rays of a lobe and the search of the screen, and lists what is left. Only one lobe at a time: until
- * refletAnswerRays no lobe, refletComposite or refletEndFrame may be called, which would lose the rays; all of these
- * are refused. Other effects and commands of the host may be. At most 16 rays a pixel. Barriers: `rays` and `answers`
- * from their stages and access to the host's use.
+ * Records rays of a lobe and the search of the screen, and lists what is left, with what the screen shows of smooth
+ * metals (roughness below 0.5): that is the camera's view of them. Only one lobe at a time: until refletAnswerRays no
+ * lobe, refletComposite or refletEndFrame may be called, which would lose the rays; all of these are refused. Other
+ * effects and commands of the host may be. At most 16 rays a pixel. Barriers: `rays` and `answers` from their stages
+ * and access to the host's use.
  */
 REFLET_API RefletResult refletMissedRays(RefletView view, RefletSettings settings, RefletLobeKind kind,
                                          const RefletIndirectLight* light, RefletMissedRays* missed);

@@ -127,6 +127,12 @@ bool holdsJitter(const mat4& toClip, vec2 jitter, uvec2 size) {
 ViewParams viewParams(const RefletFrameInfo& info, RefletDepthKind depthKind, uvec2 size, uvec2 before) {
     const mat4 toView = rigid(info.worldToView, "worldToView");
     const mat4 toClip = reflectedProjection(matrixOf(info.viewToClip, "viewToClip"), info, depthKind);
+    // A perspective matrix has 1 or -1 there, and its transposed one has it here.
+    if (std::abs(info.viewToClip[14]) == 1.0F && std::abs(info.viewToClip[11]) != 1.0F && info.viewToClip[11] != 0.0F) {
+        failArgument(
+            "RefletFrameInfo.viewToClip: [11] is {}, and [14] is {}: it is transposed; matrices are column-major",
+            info.viewToClip[11], info.viewToClip[14]);
+    }
     ViewParams v = lighting::viewOf(toView, toClip, size);
     checkProjection(toClip, v.clipToWorld, depthKind);
     const bool first = isZero(info.previousWorldToView) && isZero(info.previousViewToClip);
@@ -166,6 +172,9 @@ ImportParams importParams(const RefletFrameInfo& info, const RefletGBuffer& g, c
         if (!(std::abs(scale[axis]) < 1e6F)) {
             failArgument("RefletGBuffer.motionScale[{}]: is {}; must be a factor", axis, scale[axis]);
         }
+    }
+    if ((scale.x == 0.0F) != (scale.y == 0.0F)) {
+        failArgument("RefletGBuffer.motionScale: is ({}, {}); must be two factors, or both 0 for 1", scale.x, scale.y);
     }
     params.motionToUv = factor * (scale == vec2(0.0F) ? vec2(1.0F) : scale);
     params.motionOffset = g.motionIncludesJitter != 0 ? view.jitterChange : vec2(0.0F);

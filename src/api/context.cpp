@@ -161,7 +161,7 @@ const std::vector<SettingTexts>& settingTexts() {
     static const std::vector<SettingTexts> texts = [] {
         std::vector<SettingTexts> made;
         const Settings defaults{};
-        for (const SettingEntry& entry : settingTable().entries()) {
+        for (const SettingEntry& entry : listedSettings()) {
             std::vector<const char*> choices;
             std::ranges::transform(entry.info.options, std::back_inserter(choices),
                                    [](const SettingOption& option) { return option.name.c_str(); });
@@ -365,13 +365,13 @@ RefletResult refletGetSettingNumber(RefletSettings settings, const char* name, d
 }
 
 uint32_t refletSettingCount(void) {
-    return static_cast<uint32_t>(settingTable().entries().size());
+    return static_cast<uint32_t>(listedSettings().size());
 }
 
 RefletResult refletSettingInfo(uint32_t index, RefletSettingInfo* info) {
     return guarded([&] {
         const RefletSettingInfo given = adopted(info, "RefletSettingInfo");
-        const auto& entries = settingTable().entries();
+        const auto& entries = listedSettings();
         if (index >= entries.size()) {
             failArgument("index: is {}, and there are {} settings", index, entries.size());
         }

@@ -218,6 +218,21 @@ std::string describe(const RefletView_T& view) {
 
 }  // namespace
 
+void noteContradictions(RefletView_T& view) {
+    constexpr uint64_t firstFrames = 16;  // later frames are like these
+    if (view.owner.log == nullptr || !view.described || view.described->frames >= firstFrames) {
+        return;
+    }
+    Lines fresh = contradictions(*view.described, view.frame->context.view, *view.frame);
+    std::erase_if(fresh, [&](const std::string& text) {
+        return std::ranges::find(view.contradictions, text) != view.contradictions.end();
+    });
+    if (!fresh.empty()) {
+        view.note = fmt::format("contradictions: {}", fmt::join(fresh, "; "));
+        view.contradictions.insert(view.contradictions.end(), fresh.begin(), fresh.end());
+    }
+}
+
 }  // namespace reflet::api
 
 using namespace reflet;

@@ -18,6 +18,14 @@ void checkOut(T* out, const char* name) {
     }
 }
 
+// Effects with a history take one result of each frame.
+void checkOnce(bool recorded, const char* call) {
+    if (recorded) {
+        failArgument("view: {} was called in this frame already, and keeps one history; use a view of its own for more",
+                     call);
+    }
+}
+
 mat4 cascadeMatrix(const RefletSunShadow& sun, uint32_t i) {
     mat4 m;
     for (int k = 0; k < 16; ++k) {
@@ -49,6 +57,19 @@ ShadowMapParams mapParams(const mat4& worldToShadow, const vec3& toSun, float si
     return {worldToShadow, toSun, 2.0F / (across * side), 1.0F / along};
 }
 
+// Reversed depth rises toward the sun. How far a map may lean is the host's business.
+void checkSide(const RefletSunShadow& sun, const mat4& worldToShadow, const vec3& toSun, uint32_t i) {
+    const vec3 rise(glm::transpose(worldToShadow)[2]);
+    if (glm::dot(rise, toSun) > -0.01F * glm::length(rise)) {
+        return;
+    }
+    const bool reversed = sun.depthKind == REFLET_DEPTH_REVERSED;
+    failArgument(
+        "RefletSunShadow.depthKind: is {}, and with worldToClip[{}] depth {} toward the sun; depthKind, the matrix or "
+        "toSun (from surfaces to the sun) is wrong",
+        reversed ? "REFLET_DEPTH_REVERSED" : "REFLET_DEPTH_STANDARD", i, reversed ? "falls" : "rises");
+}
+
 SunInputs sunInputs(const RefletSunShadow& sun, const Settings& settings) {
     SunInputs in;
     if (sun.cascades < 1 || sun.cascades > maxCascades) {
@@ -75,6 +96,7 @@ SunInputs sunInputs(const RefletSunShadow& sun, const Settings& settings) {
     float start = 0.0F;
     for (uint32_t i = 0; i < sun.cascades; ++i) {
         in.sun.maps[i] = mapParams(cascadeMatrix(sun, i), in.toSun, static_cast<float>(sun.map.width), i);
+        checkSide(sun, in.sun.maps[i].worldToShadow, in.toSun, i);
         const bool last = i + 1 == sun.cascades;
         const float split = sun.cascadeSplits[i];
         if (!last && !(split > start && std::isfinite(split))) {
@@ -134,6 +156,7 @@ RefletResult refletSunShadow(RefletView view, RefletSettings settings, const Ref
                              RefletImage* visibility) {
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
         checkOut(visibility, "visibility");
+        checkOnce(static_cast<bool>(frame.sunVisibility), "refletSunShadow");
         const RefletSunShadow given = adopted(sun, "RefletSunShadow");
         if (given.map.image == VK_NULL_HANDLE) {
             failArgument("RefletSunShadow.map.image: is VK_NULL_HANDLE, and is required");
@@ -168,6 +191,7 @@ RefletResult refletContactShadows(RefletView view, RefletSettings settings, cons
 RefletResult refletAmbientOcclusion(RefletView view, RefletSettings settings, RefletImage* occlusion) {
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
         checkOut(occlusion, "occlusion");
+        checkOnce(static_cast<bool>(frame.ambientOcclusion), "refletAmbientOcclusion");
         *occlusion = resultOf(recordAmbientOcclusion(*view, frame, values));
     });
 }
@@ -194,6 +218,7 @@ RefletResult refletTemporal(RefletView view, RefletSettings settings, const Refl
                             RefletImage* antialiased) {
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
         checkOut(antialiased, "antialiased");
+        checkOnce(static_cast<bool>(frame.antialiased), "refletTemporal");
         HostImages host(*view);
         *antialiased =
             resultOf(recordTemporal(*view, frame, values, colorOf(color, host, {frame.size, frame.inLarger})));
@@ -204,6 +229,7 @@ RefletResult refletDepthOfField(RefletView view, RefletSettings settings, const 
                                 const RefletImage* color, RefletImage* blurred) {
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
         checkOut(blurred, "blurred");
+        checkOnce(static_cast<bool>(frame.defocused), "refletDepthOfField");
         const Lens thin = lensOf(adopted(lens, "RefletLens"));
         HostImages host(*view);
         *blurred = resultOf(recordDepthOfField(*view, frame, values, thin,

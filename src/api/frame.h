@@ -13,6 +13,9 @@ RefletResult onView(RefletView view, const std::function<void()>& body);
 RefletResult inFrame(RefletView view, RefletSettings settings,
                      const std::function<void(Frame&, const Settings&)>& body);
 
+/// Leaves what contradicts itself in the current frame, and was not told before, to the host's log.
+void noteContradictions(RefletView_T& view);
+
 /// Throws Failure once the device is known to be lost.
 void checkDevice(const RefletContext_T& context);
 

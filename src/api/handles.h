@@ -163,6 +163,8 @@ struct RefletView_T {
     std::optional<reflet::api::Frame> last;          ///< that has ended, for refletFindImage
     std::deque<reflet::gpu::ImageState> hostImages;  ///< of the current frame; elements stay where they are
     std::optional<reflet::api::Described> described;
-    float preExposure = 1.0F;   ///< of the current or last frame
-    bool composedLast = false;  ///< whether the last frame wrote ViewStore::lit
+    std::vector<std::string> contradictions;  ///< that the host has been told
+    std::string note;                         ///< for the host's log when the call ends
+    float preExposure = 1.0F;                 ///< of the current or last frame
+    bool composedLast = false;                ///< whether the last frame wrote ViewStore::lit
 };

@@ -81,6 +81,10 @@ ProbeParams probeParams(const RefletProbe& probe, const std::string& name) {
         failArgument("{}.blend: is {}; must be finite and at least 0 metres", name, probe.blend);
     }
     params.blend = probe.blend;
+    if (!(probe.factor >= 0.0F) || !std::isfinite(probe.factor)) {
+        failArgument("{}.factor: is {}; must be finite and above 0, or 0 for 1", name, probe.factor);
+    }
+    params.radianceScale = probe.factor > 0.0F ? probe.factor : 1.0F;
     params.parallax = static_cast<uint32_t>(parallaxOf(probe, name));
     return params;
 }

@@ -81,10 +81,20 @@ LightInputs lightInputs(const Frame& frame, const RefletIndirectLight* light, Ho
     return in;
 }
 
+// Its history takes one result of each frame.
+void checkLobeIsNew(const Frame& frame, uint32_t lobe) {
+    checkNonePending(frame);
+    if ((lobe == lobeDiffuse ? frame.diffuse : frame.specular).has_value()) {
+        failArgument(
+            "view: {} has a result in this frame already, and keeps one history; use a view of its own for more",
+            lobeName(lobe));
+    }
+}
+
 RefletResult traceLobeOf(RefletView view, RefletSettings settings, const RefletIndirectLight* light, RefletLobe* lobe,
                          uint32_t kind) {
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
-        checkNonePending(frame);
+        checkLobeIsNew(frame, kind);
         const RefletLobe asked = adopted<RefletLobe>(lobe, "lobe");
         HostImages host(*view);
         const LightInputs in = lightInputs(frame, light, host);
@@ -168,9 +178,9 @@ RefletResult refletReflections(RefletView view, RefletSettings settings, const R
 RefletResult refletDenoise(RefletView view, RefletSettings settings, RefletLobeKind kind, const RefletImage* noisy,
                            RefletLobe* lobe) {
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
-        checkNonePending(frame);
-        const RefletLobe asked = adopted<RefletLobe>(lobe, "lobe");
         const uint32_t which = lobeOfKind(kind);
+        checkLobeIsNew(frame, which);
+        const RefletLobe asked = adopted<RefletLobe>(lobe, "lobe");
         if (noisy == nullptr || noisy->image == VK_NULL_HANDLE) {
             failArgument("noisy: is NULL");
         }
@@ -187,8 +197,8 @@ RefletResult refletDenoise(RefletView view, RefletSettings settings, RefletLobeK
 RefletResult refletMissedRays(RefletView view, RefletSettings settings, RefletLobeKind kind,
                               const RefletIndirectLight* light, RefletMissedRays* missed) {
     return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
-        checkNonePending(frame);
         const uint32_t lobe = lobeOfKind(kind);
+        checkLobeIsNew(frame, lobe);
         const RefletMissedRays asked = adopted<RefletMissedRays>(missed, "RefletMissedRays");
         HostImages host(*view);
         const LightInputs in = lightInputs(frame, light, host);

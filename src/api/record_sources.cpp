@@ -76,7 +76,7 @@ lighting::HostLight hostLight(RefletView_T& view, Frame& frame, const Settings& 
     lighting::HostLight light;
     light.probes = in.probes.empty() ? ProbeMaps{} : probeMaps(view, in);
     for (ProbeParams& probe : light.probes.block.probes) {
-        probe.radianceScale = frame.preExposure;  // the maps outlive the frame, so the host gives them without it
+        probe.radianceScale *= frame.preExposure;  // the maps outlive the frame, so the host gives them without it
     }
     light.mirrorsFirst = !in.planarAfterScreen;
     const bool diffuse = lobe == lobeDiffuse;

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 
 namespace reflet {
 std::span<const EmbeddedFile> libraryPresets();
@@ -35,6 +36,10 @@ SettingTable makeTable() {
     return table;
 }
 
+// What a host decides by what it draws and calls.
+constexpr std::array<std::string_view, 4> ofTheHost{"shadow.resolution", "shadow.extent", "temporal.enabled",
+                                                    "temporal.scale"};
+
 std::string_view presetName(const EmbeddedFile& file) {
     return file.name.substr(0, file.name.find('.'));
 }
@@ -44,6 +49,16 @@ std::string_view presetName(const EmbeddedFile& file) {
 const SettingTable& settingTable() {
     static const SettingTable table = makeTable();
     return table;
+}
+
+const std::vector<SettingEntry>& listedSettings() {
+    static const std::vector<SettingEntry> listed = [] {
+        std::vector<SettingEntry> found(settingTable().entries().begin(), settingTable().entries().end());
+        std::erase_if(found,
+                      [](const SettingEntry& e) { return std::ranges::find(ofTheHost, e.name) != ofTheHost.end(); });
+        return found;
+    }();
+    return listed;
 }
 
 void applyPreset(Settings& settings, std::string_view name) {

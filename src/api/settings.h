@@ -6,6 +6,7 @@
 #include "lighting/settings.h"
 
 #include <string_view>
+#include <vector>
 
 namespace reflet::api {
 
@@ -14,6 +15,8 @@ struct Settings : LightingSettings {
 };
 
 const SettingTable& settingTable();
+/// Of its entries, those that change what the library does. The others may be set, as presets and files have them.
+const std::vector<SettingEntry>& listedSettings();
 
 /// Throws UsageError for a preset that the library does not have.
 void applyPreset(Settings& settings, std::string_view name);

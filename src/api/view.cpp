@@ -130,6 +130,7 @@ RefletResult onView(RefletView view, const std::function<void()>& body) {
     void (*log)(void*, RefletResult, const char*) = nullptr;
     void* logUser = nullptr;
     // Nothing is held while the host is told: it may destroy the view.
+    std::string note;
     const RefletResult result = guarded([&] {
         const std::shared_ptr<RefletView_T> object = held(view, "view");
         log = object->owner.log;
@@ -146,9 +147,12 @@ RefletResult onView(RefletView view, const std::function<void()>& body) {
             throw;
         }
         gpu::Memory::setAccount(nullptr);
+        note = std::exchange(object->note, {});
     });
     if (result != REFLET_SUCCESS && log != nullptr) {
         log(logUser, result, lastError().c_str());
+    } else if (!note.empty() && log != nullptr) {
+        log(logUser, result, note.c_str());
     }
     return result;
 }
@@ -270,6 +274,9 @@ RefletResult refletSetOutputSize(RefletView view, uint32_t width, uint32_t heigh
 
 RefletResult refletResetView(RefletView view) {
     return onView(view, [&] {
+        if (view->frame) {
+            failArgument("view: a frame has begun; reset it before refletBeginFrame or after refletEndFrame");
+        }
         EnvironmentImages& environment = view->store->environment;
         const bool current = environment.generation == view->recorder.generation();
         view->recorder.forget();
@@ -353,6 +360,7 @@ RefletResult refletEndFrame(RefletView view) {
             failArgument("view: no frame has begun; call refletBeginFrame first");
         }
         checkNonePending(*view->frame);
+        noteContradictions(*view);
         view->recorder.end();
         view->composedLast = static_cast<bool>(view->frame->composed);
         view->store->lastGeneration = view->recorder.generation();

@@ -14,6 +14,7 @@ const uint lampSpot = 1;
 const uint lampDirectional = 2;
 const uint lampEmitter = 3;          // small emissive surfaces, seen from afar
 const uint lampReflected = 4;        // the sun in a flat mirror, which lights what the mirror faces
+const float roughestView = 0.5;      // smoother metals do not look to a ray as they look to the camera
 const float smoothestMirror = 0.05;  // roughness of mirrors that do: rougher ones blur the light, and rays find it
 
 // A reflected sun stands for so many metres per metre of its mirror's diagonal from it, for its shadow map.

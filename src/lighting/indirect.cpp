@@ -95,7 +95,10 @@ ScreenImages screenForLobe(const ViewContext& in, uint32_t lobe, ScreenImages se
     const EmittersAtHits highlighted =
         in.roughestHighlight > 0.0F ? EmittersAtHits::notHighlighted : EmittersAtHits::all;
     seen.emitters = in.emitterLamps && lobe == lobeDiffuse ? EmittersAtHits::none : highlighted;
-    seen.leavesOutMirrors = in.reflectedSuns && lobe == lobeDiffuse;
+    // Without a source that follows what metals mirror, their picture is better than none. Reflected suns alone bring
+    // their light to other surfaces.
+    const bool asLamps = in.reflectedSuns && lobe == lobeDiffuse;
+    seen.metalsLeftOut = certainNext ? MetalsLeftOut::smooth : asLamps ? MetalsLeftOut::mirrors : MetalsLeftOut::none;
     return seen;
 }
 

@@ -122,6 +122,7 @@ TEST_F(Arguments, OfAFrame) {
     expectFrameError("previousWorldToView", [](auto& i) { std::ranges::copy(i.viewToClip, i.previousViewToClip); });
     expectFrameError("viewToClip", [](auto& i) { i.viewToClip[14] = 1e-44F; });
     expectFrameError("viewToClip", [](auto& i) { i.viewToClip[0] = 1e38F; });
+    expectFrameError("it is transposed", [](auto& i) { std::swap(i.viewToClip[11], i.viewToClip[14]); });
     expectFrameError("has the jitter in it", [](auto& i) {
         i.jitter[0] = 0.25F;
         i.jitter[1] = -0.25F;
@@ -187,10 +188,54 @@ TEST_F(Arguments, OfAFrame) {
         g.metallicChannel = 3;
     });
     expectGBufferError("motionScale", [](auto& g) { g.motionScale[1] = INFINITY; });
+    expectGBufferError("motionScale", [](auto& g) { g.motionScale[0] = 1.0F; });
     expectGBufferError("normalsInViewSpace", [](auto& g) { g.normalsInViewSpace = 5; });
     expectGBufferError("motionIncludesJitter", [](auto& g) { g.motionIncludesJitter = 2; });
     expectGBufferError("depthKind: is REFLET_DEPTH_STANDARD", [](auto& g) { g.depthKind = REFLET_DEPTH_STANDARD; });
     EXPECT_EQ(LibraryHost::made().images, 0U) << "nothing was recorded";
+}
+
+// Once for each view, though each frame has it.
+TEST_F(Arguments, AContradictionIsLogged) {
+    RefletContextInfo info = host_.contextInfo();
+    std::vector<std::string> logged;
+    info.logUser = &logged;
+    info.log = [](void* user, RefletResult result, const char* text) {
+        EXPECT_EQ(result, REFLET_SUCCESS);
+        static_cast<std::vector<std::string>*>(user)->emplace_back(text);
+    };
+    RefletContext context = nullptr;
+    EXPECT_REFLET(refletCreateContext(&info, &context));
+    const RefletViewInfo size{sizeof size, HostRoom::width, HostRoom::height, 1, 0, 0};
+    RefletView view = nullptr;
+    EXPECT_REFLET(refletCreateView(context, &size, &view));
+    for (uint32_t i = 0; i < 3; ++i) {
+        host_.host.frame([&](VkCommandBuffer commands) {
+            const RefletFrameInfo frame = room_.frame(commands, 7);  // the same number
+            EXPECT_REFLET(refletBeginFrame(view, &frame));
+            EXPECT_REFLET(refletEndFrame(view));
+        });
+        host_.host.waitForAll();
+    }
+    ASSERT_EQ(logged.size(), 1U);
+    EXPECT_NE(logged[0].find("frameIndex is that of the last frame"), std::string::npos) << logged[0];
+    refletDestroyView(view);
+    refletDestroyContext(context);
+}
+
+TEST_F(Arguments, SettingsOfTheHostsOwnWorkAreNotListed) {
+    std::vector<std::string> names;
+    for (uint32_t i = 0; i < refletSettingCount(); ++i) {
+        RefletSettingInfo info{};
+        info.structSize = sizeof info;
+        EXPECT_REFLET(refletSettingInfo(i, &info));
+        names.emplace_back(info.name);
+    }
+    EXPECT_NE(std::ranges::find(names, "temporal.frames"), names.end());
+    for (const char* name : {"temporal.enabled", "temporal.scale", "shadow.resolution", "shadow.extent"}) {
+        EXPECT_EQ(std::ranges::find(names, name), names.end()) << name;
+        EXPECT_NE(refletGetSetting(settings_, name), nullptr) << "a preset may have it";
+    }
 }
 
 TEST_F(Arguments, AnErrorIsLogged) {

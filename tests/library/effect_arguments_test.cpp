@@ -92,6 +92,8 @@ TEST_F(EffectArguments, OfProbesAndPlanarViews) {
         expectProbeError("boxCenter", [](auto& p) { p.boxCenter[1] = INFINITY; });
         expectProbeError("boxHalfExtents", [](auto& p) { p.boxHalfExtents[2] = 0.0F; });
         expectProbeError("blend", [](auto& p) { p.blend = -1.0F; });
+        expectProbeError("factor", [](auto& p) { p.factor = -1.0F; });
+        expectProbeError("factor", [](auto& p) { p.factor = NAN; });
         expectProbeError("parallax", [](auto& p) { p.parallax = RefletParallax(3); });
         expectProbeError("distance.image", [](auto& p) { p.parallax = REFLET_PARALLAX_DEPTH; });
         expectProbeError("parallaxHalfExtents", [](auto& p) { p.parallaxHalfExtents[0] = -1.0F; });
@@ -216,6 +218,45 @@ TEST_F(EffectArguments, OfTheSunsShadow) {
         expectError(refletSunShadow(view_, settings_, &right, nullptr), "visibility");
         EXPECT_REFLET(refletSetSetting(settings_, "shadow.filter", "traced"));
         expectError(refletSunShadow(view_, settings_, &right, &image_), "shadow.filter");
+    });
+}
+
+TEST_F(EffectArguments, OfTheSunsSide) {
+    // Row 2, column 1: depth by height, under a sun at the zenith.
+    const auto sun = [](RefletSunShadow& s, RefletDepthKind kind, float rise) {
+        s.depthKind = kind;
+        s.worldToClip[0][6] = rise;
+    };
+    inAFrame([&] {
+        expectSunError("toward the sun", [&](auto& s) { sun(s, REFLET_DEPTH_REVERSED, -0.05F); });
+        expectSunError("toward the sun", [&](auto& s) { sun(s, REFLET_DEPTH_STANDARD, 0.05F); });
+        expectSunError("toward the sun", [&](auto& s) {
+            sun(s, REFLET_DEPTH_REVERSED, 0.05F);
+            s.toSun[1] = -1.0F;
+        });
+        RefletSunShadow right = room_.sun();
+        sun(right, REFLET_DEPTH_STANDARD, -0.05F);
+        EXPECT_REFLET(refletSunShadow(view_, settings_, &right, &image_));
+    });
+}
+
+TEST_F(EffectArguments, OfASecondCallInAFrame) {
+    const RefletSunShadow sun = room_.sun();
+    const RefletLens lens{sizeof lens, 0.05F, 3.0F, 0, 0.0F};
+    RefletImage out{};
+    EXPECT_REFLET(refletSetSetting(settings_, "ao.method", "bitmask"));
+    const auto twice = [&](const std::function<RefletResult()>& call) {
+        EXPECT_EQ(call(), REFLET_SUCCESS) << refletLastError();
+        expectError(call(), "one history");
+    };
+    inAFrame([&] {
+        twice([&] { return refletSunShadow(view_, settings_, &sun, &out); });
+        twice([&] { return refletAmbientOcclusion(view_, settings_, &out); });
+        twice([&] { return refletDiffuseGi(view_, settings_, &light_, &lobe_); });
+        twice([&] { return refletReflections(view_, settings_, &light_, &lobe_); });
+        EXPECT_REFLET(refletComposite(view_, settings_, nullptr, &sum_));
+        twice([&] { return refletTemporal(view_, settings_, nullptr, &out); });
+        twice([&] { return refletDepthOfField(view_, settings_, &lens, nullptr, &out); });
     });
 }
 

@@ -92,35 +92,6 @@ uint32_t memoryType(VkPhysicalDevice physical, uint32_t allowed, VkMemoryPropert
     return i;
 }
 
-struct Staging {
-    VkDevice device = VK_NULL_HANDLE;
-    VkBuffer buffer = VK_NULL_HANDLE;
-    VkDeviceMemory memory = VK_NULL_HANDLE;
-    void* mapped = nullptr;
-
-    Staging(const gpu::OpenDevice& open, size_t bytes, VkBufferUsageFlags usage) : device(open.device) {
-        VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
-        info.size = bytes;
-        info.usage = usage;
-        vkCreateBuffer(device, &info, nullptr, &buffer);
-        VkMemoryRequirements needs;
-        vkGetBufferMemoryRequirements(device, buffer, &needs);
-        const VkMemoryAllocateInfo allocate{
-            VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size,
-            memoryType(open.physical, needs.memoryTypeBits,
-                       VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT)};
-        vkAllocateMemory(device, &allocate, nullptr, &memory);
-        vkBindBufferMemory(device, buffer, memory, 0);
-        vkMapMemory(device, memory, 0, VK_WHOLE_SIZE, 0, &mapped);
-    }
-    ~Staging() {
-        vkDestroyBuffer(device, buffer, nullptr);
-        vkFreeMemory(device, memory, nullptr);
-    }
-    Staging(const Staging&) = delete;
-    Staging& operator=(const Staging&) = delete;
-};
-
 void move(VkCommandBuffer commands, const RefletImage& image, VkImageLayout from, VkImageLayout to,
           VkPipelineStageFlags2 stages, VkAccessFlags2 access, VkPipelineStageFlags2 next, VkAccessFlags2 nextAccess,
           uint32_t firstLayer = 0, uint32_t layers = VK_REMAINING_ARRAY_LAYERS) {
@@ -140,6 +111,27 @@ void move(VkCommandBuffer commands, const RefletImage& image, VkImageLayout from
 }
 
 }  // namespace
+
+HostBuffer::HostBuffer(const gpu::OpenDevice& open, size_t bytes, VkBufferUsageFlags usage) : device_(open.device) {
+    VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
+    info.size = bytes;
+    info.usage = usage;
+    vkCreateBuffer(device_, &info, nullptr, &buffer);
+    VkMemoryRequirements needs;
+    vkGetBufferMemoryRequirements(device_, buffer, &needs);
+    const VkMemoryAllocateInfo allocate{
+        VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, needs.size,
+        memoryType(open.physical, needs.memoryTypeBits,
+                   VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT)};
+    vkAllocateMemory(device_, &allocate, nullptr, &memory_);
+    vkBindBufferMemory(device_, buffer, memory_, 0);
+    vkMapMemory(device_, memory_, 0, VK_WHOLE_SIZE, 0, &mapped);
+}
+
+HostBuffer::~HostBuffer() {
+    vkDestroyBuffer(device_, buffer, nullptr);
+    vkFreeMemory(device_, memory_, nullptr);
+}
 
 LibraryHost::Made& LibraryHost::made() {
     static Made all;
@@ -220,7 +212,7 @@ RefletImage LibraryHost::makeImage(VkFormat format, uint32_t width, uint32_t hei
     view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, layers};
     vkCreateImageView(open.device, &view, nullptr, &made.view);
     made.told = {made.image, made.view, format, width, height, VK_IMAGE_LAYOUT_GENERAL, 0, 0};
-    const Staging staging(open, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
+    const HostBuffer staging(open, bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT);
     std::memcpy(staging.mapped, texels, bytes);
     host.frame([&](VkCommandBuffer commands) {
         move(commands, made.told, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_GENERAL, 0, 0,
@@ -279,7 +271,7 @@ std::vector<vec4> LibraryHost::texelsOfInput(const RefletImage& image) {
 
 std::vector<std::byte> LibraryHost::read(const RefletImage& image, size_t bytesPerTexel) {
     const size_t bytes = bytesPerTexel * image.width * image.height;
-    const Staging staging(host.device(), bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
+    const HostBuffer staging(host.device(), bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
     host.frame([&](VkCommandBuffer commands) {
         move(commands, image, image.layout, VK_IMAGE_LAYOUT_GENERAL, image.stages, image.access,
              VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);

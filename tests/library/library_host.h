@@ -23,6 +23,22 @@ struct HostImage {
     RefletImage told{};  ///< as the library is told
 };
 
+/// A buffer in memory that the host reads and writes.
+class HostBuffer {
+public:
+    HostBuffer(const gpu::OpenDevice& open, size_t bytes, VkBufferUsageFlags usage);
+    ~HostBuffer();
+    HostBuffer(const HostBuffer&) = delete;
+    HostBuffer& operator=(const HostBuffer&) = delete;
+
+    VkBuffer buffer = VK_NULL_HANDLE;
+    void* mapped = nullptr;
+
+private:
+    VkDevice device_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+};
+
 /// Opens a device with the features that the library needs, and counts what is made on it through `lookUp`.
 class LibraryHost {
 public:

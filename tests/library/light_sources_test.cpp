@@ -207,6 +207,29 @@ TEST_F(LightSources, ProbesShowTheirSurroundingsInMirrors) {
     }
 }
 
+// Surroundings brighter than half floats hold, seen by a host with pre-exposure.
+TEST_F(LightSources, ProbesHaveAFactor) {
+    RefletProbe probe = boxProbe(vec3(2.0F, 3.0F, 1.0F));
+    const auto withProbe = [&](RefletIndirectLight& light) {
+        light.probes = &probe;
+        light.probeCount = 1;
+    };
+    const LobeTexels once = trace(REFLET_LOBE_SPECULAR, withProbe);
+    probe.factor = 4096.0F;
+    const LobeTexels bright = trace(REFLET_LOBE_SPECULAR, withProbe);
+    size_t found = 0;
+    for (uint32_t i = 0; i < once.radiance.size(); ++i) {
+        if (boxInMirror(i)) {
+            ++found;
+            for (int c = 0; c < 3; ++c) {
+                const float wanted = 4096.0F * once.radiance[i][c];
+                ASSERT_NEAR(bright.radiance[i][c], wanted, 0.02F * wanted + 1e-3F) << i;
+            }
+        }
+    }
+    EXPECT_GT(found, 300U);
+}
+
 // E and E / pi, as coefficients and as a cube map; constant, so that every normal gets the same.
 TEST_F(LightSources, ProbesLightByTheirIrradiance) {
     set("diffuse.distribution", "normal");

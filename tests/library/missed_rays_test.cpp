@@ -26,6 +26,7 @@ struct Answering {
     std::optional<HiddenPlanes> planes;  ///< none: the host leaves the answers alone
     bool mirrors = false;                ///< every surface is one
     bool fills = false;                  ///< the host writes 1 into all answers, by a command that is no shader
+    bool metals = true;                  ///< false: no surface is one
     uint32_t frames = 1;
 };
 
@@ -77,7 +78,7 @@ protected:
                 RefletFrameInfo info = room_.frame(commands, i);
                 RefletGBuffer surfaces = *info.gbuffer;
                 surfaces.roughness = how.mirrors ? mirror_ : surfaces.roughness;
-                surfaces.metallic = how.mirrors ? mirror_ : surfaces.metallic;
+                surfaces.metallic = how.mirrors ? mirror_ : how.metals ? surfaces.metallic : RefletImage{};
                 info.gbuffer = &surfaces;
                 EXPECT_REFLET(refletBeginFrame(view, &info));
                 lobe = recordLobe(view, commands, how);
@@ -239,9 +240,10 @@ TEST_F(MissedRays, WithoutConfidenceAreThoseOfTheEffect) {
         HiddenPlanes planes;
         planes.confidence = 0.0F;
         planes.missDistance = 0.0F;
-        const LobeTexels effect = trace({.kind = way.kind, .asks = false, .frames = 3});
-        const LobeTexels silent = trace({.kind = way.kind, .frames = 3});
-        const LobeTexels unsure = trace({.kind = way.kind, .planes = planes, .frames = 3});
+        // What smooth metals show the camera answers rays of the effect alone.
+        const LobeTexels effect = trace({.kind = way.kind, .asks = false, .metals = false, .frames = 3});
+        const LobeTexels silent = trace({.kind = way.kind, .metals = false, .frames = 3});
+        const LobeTexels unsure = trace({.kind = way.kind, .planes = planes, .metals = false, .frames = 3});
         EXPECT_EQ(silent.radiance, unsure.radiance);
         EXPECT_EQ(silent.lit, unsure.lit);
         if (way.exact) {

@@ -142,6 +142,13 @@ inline void store(float (&to)[3], const vec3& v) {
     std::memcpy(to, &v.x, sizeof to);
 }
 
+// refletSettingInfo does not list these. LibraryCamera looks them up.
+inline void setWhatTheHostDoes(RefletSettings made, const Settings& settings) {
+    for (const char* name : {"temporal.enabled", "temporal.scale"}) {
+        EXPECT_REFLET(refletSetSetting(made, name, settingText(settings, findSetting(name)).c_str()));
+    }
+}
+
 class LibraryCamera {
 public:
     LibraryCamera(LibraryHost& host, RefletContext context, RefletSettings settings, const uvec2& rendered)
@@ -158,12 +165,9 @@ public:
         RefletFrameInfo frame = frameInfo(from, view);
         const RefletIndirectLight light = lightInfo(from, view);
         const RefletSunShadow sun = sunInfo(from, view);
-        const Camera& c = view.camera;
-        const RefletLens lens{sizeof lens, c.apertureRadius, c.focusDistance, c.blades, c.bladeRotation};
         std::map<std::string, RefletImage> made;
         host_.host.frame([&](VkCommandBuffer commands) {
             RefletLobe lobe = emptyLobe();
-            RefletComposite sum{sizeof sum, {}, {}, {}};
             frame.commandBuffer = commands;
             EXPECT_REFLET(refletBeginFrame(view_, &frame));
             for (const char* name : {"depth", "normal", "geometric_normal", "base_color", "material", "motion"}) {
@@ -179,15 +183,26 @@ public:
             made["diffuse"] = lobe.radiance;
             EXPECT_REFLET(refletReflections(view_, settings_, &light, &lobe));
             made["specular"] = lobe.radiance;
-            EXPECT_REFLET(refletComposite(view_, settings_, nullptr, &sum));
-            made["lit"] = sum.lit;
-            if (is("temporal.enabled", "true")) {
-                EXPECT_REFLET(refletTemporal(view_, settings_, nullptr, &made["antialiased"]));
-            }
-            EXPECT_REFLET(refletDepthOfField(view_, settings_, &lens, nullptr, &made["defocused"]));
-            EXPECT_REFLET(refletToneMap(view_, settings_, nullptr, 1, &made["display"]));
-            EXPECT_REFLET(refletEndFrame(view_));
+            finish(view.camera, made);
         });
+        return read(made);
+    }
+
+protected:
+    // What follows the lobes.
+    void finish(const Camera& c, std::map<std::string, RefletImage>& made) {
+        const RefletLens lens{sizeof lens, c.apertureRadius, c.focusDistance, c.blades, c.bladeRotation};
+        RefletComposite sum{sizeof sum, {}, {}, {}};
+        EXPECT_REFLET(refletComposite(view_, settings_, nullptr, &sum));
+        made["lit"] = sum.lit;
+        if (is("temporal.enabled", "true")) {
+            EXPECT_REFLET(refletTemporal(view_, settings_, nullptr, &made["antialiased"]));
+        }
+        EXPECT_REFLET(refletDepthOfField(view_, settings_, &lens, nullptr, &made["defocused"]));
+        EXPECT_REFLET(refletToneMap(view_, settings_, nullptr, 1, &made["display"]));
+        EXPECT_REFLET(refletEndFrame(view_));
+    }
+    RawImages read(const std::map<std::string, RefletImage>& made) {
         host_.host.waitForAll();
         RawImages out;
         for (const auto& [name, image] : made) {
@@ -196,8 +211,6 @@ public:
         }
         return out;
     }
-
-private:
     bool is(const char* setting, const char* value) const {
         return std::strcmp(refletGetSetting(settings_, setting), value) == 0;
     }
@@ -255,11 +268,12 @@ private:
         light.structSize = sizeof light;
         light.light = given(from.images.at("direct"), VK_FORMAT_R16G16B16A16_SFLOAT);
         around_.structSize = sizeof around_;
-        store(around_.factor, vec3(view.environment.intensity));
-        around_.rotation = view.environment.rotation;
-        around_.image = environment(*view.environment.image);
+        const Environment& environment = view.environment;
+        store(around_.factor, environment.image ? vec3(environment.intensity) : environment.radiance);
+        around_.rotation = environment.rotation;
+        around_.image = environment.image ? environmentImageOf(*environment.image) : RefletImage{};
         light.environment = &around_;
-        if (from.images.contains("probe_atlas")) {
+        if (from.images.contains("probe_atlas") && view.probes) {
             addProbes(light, from.images.at("probe_atlas"), *view.probes);
         }
         return light;
@@ -289,7 +303,7 @@ private:
         light.probes = probes_.data();
         light.probeCount = static_cast<uint32_t>(probes_.size());
     }
-    RefletImage environment(const FloatImage& image) {
+    RefletImage environmentImageOf(const FloatImage& image) {
         if (environment_.image == VK_NULL_HANDLE) {
             std::vector<vec4> texels;
             for (size_t i = 0; i < image.data.size(); i += 3) {
@@ -317,6 +331,8 @@ private:
     LibraryHost& host_;
     RefletSettings settings_;
     RefletView view_ = nullptr;
+
+private:
     RefletImage environment_{};
     RefletFrameInfo last_{};
     RefletGBuffer gbuffer_{};

@@ -56,6 +56,7 @@ RefletSettings librarySettings(const std::string& preset, const Settings& settin
         }
         EXPECT_EQ(refletGetSetting(made, info.name), value) << info.name;
     }
+    setWhatTheHostDoes(made, settings);
     return made;
 }
 

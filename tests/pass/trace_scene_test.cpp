@@ -174,14 +174,15 @@ TEST(TraceScene, NoSeamShowsInAMirrorWhereRayTracingTakesOverFromTheScreen) {
         const Pictures p = render(scene, view, size,
                                   settingsOf({"trace_scene.enabled=on", std::string("trace_screen.light=") + light,
                                               "diffuse.rays=4", "trace_scene.reuse_screen=off"}),
-                                  {"specular_radiance", "specular_source"});
+                                  {"specular_radiance", "specular_source", "metallic"});
         const Range range = rangeOf(p.images.at("specular_radiance"));
         unsigned handOvers = 0;
         for (unsigned x = 20; x < 140; x += 4) {
             for (unsigned y = 30; y + 1 < size.y; ++y) {
                 const bool fromScreen = p.value("specular_source", x, y, 0) < 0.3F;  // green, not yellow
                 const bool nextFromScreen = p.value("specular_source", x, y + 1, 0) < 0.3F;
-                if (fromScreen != nextFromScreen && p.value("specular_radiance", x, y) > 0.0F &&
+                const bool inMirror = p.value("metallic", x, y) > 0.5F && p.value("metallic", x, y + 1) > 0.5F;
+                if (inMirror && fromScreen != nextFromScreen && p.value("specular_radiance", x, y) > 0.0F &&
                     p.value("specular_radiance", x, y + 1) > 0.0F) {
                     ++handOvers;
                     for (unsigned c = 0; c < 3; ++c) {

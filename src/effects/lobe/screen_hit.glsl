@@ -62,7 +62,7 @@ bool hitsUnseen(MarchResult hit, vec3 p, Ray ray, MarchOptions o) {
     if (rejectsBackfaces == 0u || hit.outcome != marchHit) {
         return false;
     }
-    if (leavesOutMirrors != 0u && showsMirror(hit.pixel)) {
+    if (metalsLeftOut != MetalsLeftOut_none && isLeftOut(hit.pixel)) {
         return true;
     }
     vec3 n = unpackUnitVector(texelFetch(geometricNormal, hit.pixel, 0).r);

@@ -14,7 +14,7 @@
 layout(constant_id = 22) const uint cones = 0u;
 layout(constant_id = 29) const uint readsPrevious = 0u;
 layout(constant_id = 32) const uint emittersAtHits = EmittersAtHits_all;
-layout(constant_id = 33) const uint leavesOutMirrors = 0u;
+layout(constant_id = 33) const uint metalsLeftOut = MetalsLeftOut_none;
 
 layout(scalar) uniform ParamsBlock { TraceScreenParams params; };
 uniform sampler2D depth;
@@ -43,10 +43,11 @@ vec3 loadLight(ivec2 cell, int level) {
 #include "effects/lobe/last_frame.glsl"
 #include "effects/light_mips/light_mips.glsl"
 
-// Whether the pixel shows a smooth metal. What the camera sees in it is not what others see.
-bool showsMirror(ivec2 pixel) {
+// Whether the pixel shows a metal that is left out.
+bool isLeftOut(ivec2 pixel) {
     MaterialTexel m = unpackMaterial(texelFetch(hitMaterial, pixel, 0));
-    return m.roughness <= smoothestMirror && m.metallic > 0.5;
+    bool isMirror = m.roughness <= smoothestMirror;
+    return m.metallic > 0.5 && (isMirror || (metalsLeftOut == MetalsLeftOut_smooth && m.roughness < roughestView));
 }
 
 // Of what the pixel shows, the radiance that lamps stand for.

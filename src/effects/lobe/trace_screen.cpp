@@ -105,6 +105,7 @@ gpu::ComputePass& bindScreenLight(gpu::PassList& f, gpu::ComputePass& pass, cons
                                   TraceScreenParams params) {
     const bool previous = seen.lit.valid;
     const bool leavesOut = seen.emitters != EmittersAtHits::all;
+    const bool readsMaterial = leavesOut || seen.metalsLeftOut != MetalsLeftOut::none;
     const gpu::Image light = seen.light ? seen.light : f.placeholder(VK_FORMAT_R16G16B16A16_SFLOAT);
     params.view = seen.view;
     params.previousValid = previous ? 1U : 0U;
@@ -112,7 +113,7 @@ gpu::ComputePass& bindScreenLight(gpu::PassList& f, gpu::ComputePass& pass, cons
     return pass.constant("readsPrevious", params.settings.light == HitLight::previous ? 1U : 0U)
         .constant("secondLayer", seen.backDepth ? 1U : 0U)
         .constant("emittersAtHits", static_cast<uint32_t>(seen.emitters))
-        .constant("leavesOutMirrors", seen.leavesOutMirrors ? 1U : 0U)
+        .constant("metalsLeftOut", static_cast<uint32_t>(seen.metalsLeftOut))
         .constant("cones", seen.lightMips ? 1U : 0U)
         .read("depth", seen.g.depth)
         .read("backDepth", seen.backDepth ? seen.backDepth : seen.g.depth)
@@ -120,7 +121,7 @@ gpu::ComputePass& bindScreenLight(gpu::PassList& f, gpu::ComputePass& pass, cons
         .read("motion", seen.g.motion)
         .read("light", light)
         .read("previousLit", previous ? seen.lit.previous : light)
-        .read("hitMaterial", leavesOut || seen.leavesOutMirrors ? seen.g.material : light)
+        .read("hitMaterial", readsMaterial ? seen.g.material : light)
         .read("hitEmissive", leavesOut ? seen.g.emissive : light)
         .read("lightMips", seen.lightMips ? seen.lightMips : light)
         .params(params);

@@ -43,6 +43,13 @@ CHOICES(HitLight, HIT_LIGHTS)
     OPTION(EmittersAtHits, notHighlighted, 2)  // what they emit, but for rays with Ray.highlighted
 CHOICES(EmittersAtHits, EMITTERS_AT_HITS)
 
+// Metals that answer no rays: what they show the camera, they show no other.
+#define METALS_LEFT_OUT(OPTION)       \
+    OPTION(MetalsLeftOut, none, 0)    \
+    OPTION(MetalsLeftOut, mirrors, 1) \
+    OPTION(MetalsLeftOut, smooth, 2)  // smoother than roughestView
+CHOICES(MetalsLeftOut, METALS_LEFT_OUT)
+
 #define TRACE_SCREEN_SETTINGS(VALUE, SWITCH, CHOICE)                                                                   \
     SWITCH(enabled, 1,                                                                                                 \
            "Screen-space ray tracing (SSR, SSGI): march rays through the depth buffer. Off: rays go straight to the "  \
@@ -144,8 +151,8 @@ struct ScreenImages {
     gpu::History lit;      ///< of the last frame, reprojected by the hit's motion
     gpu::Image
         lightMips;  ///< from makeLightMips, of the image that hits read; blurs the light at hits of cones (Ray.spread)
-    bool certainNext = false;       ///< misses go on to a source that finds the actual hit
-    bool leavesOutMirrors = false;  ///< smooth metals answer no rays: what they show is the camera's alone
+    bool certainNext = false;  ///< misses go on to a source that finds the actual hit
+    MetalsLeftOut metalsLeftOut = MetalsLeftOut::none;
     EmittersAtHits emitters = EmittersAtHits::all;
 };
 

@@ -137,9 +137,10 @@ vec3 probeLight(LitPoint at) {
     return at.surface.diffuse * around + at.surface.specular * mirrored;
 }
 
-// Whether a surface shows a path about what it shows the camera. Paths of more bounces know better.
+// Whether a surface shows a path about what it shows the camera. Paths of one bounce follow what metals mirror alone.
 bool looksTheSame(SceneSurface at) {
-    return params.bounces <= 1u || at.roughness >= mix(0.2, roughest, at.metallic);
+    float dielectric = params.bounces <= 1u ? 0.0 : 0.2;
+    return at.roughness >= mix(dielectric, roughestView, at.metallic);
 }
 
 // Light of further bounces where a path ends, reflected to the viewer. known: of the cache.
