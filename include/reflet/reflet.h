@@ -3,7 +3,7 @@
  * (hard, PCF, PCSS), contact shadows, ambient occlusion (AO), denoising, temporal antialiasing (TAA) and tone mapping,
  * recorded into the host's own Vulkan command buffer, from the host's G-buffer.
  *
- * C11 and C++. docs/library.md is the guide; examples/ has complete hosts.
+ * C11 and C++. docs/library.md of the sources is the guide; examples/ there has complete hosts.
  *
  * The library records. It never submits, waits, or touches a queue; nothing is written to standard output or error. A
  * function that returns RefletResult reports failures by it, and refletLastError() says what, where and what to do. No
@@ -169,7 +169,7 @@ typedef enum RefletSettingType {
 /** A setting, for a host's user interface. The texts belong to the library and are valid for ever. */
 typedef struct RefletSettingInfo {
     size_t structSize;          /**< required */
-    const char* name;           /**< "trace_screen.max_steps", as `reflet list settings` prints it */
+    const char* name;           /**< "trace_screen.max_steps", as in docs/settings.md */
     const char* help;           /**< what it does, and its effect on quality and cost */
     RefletSettingType type;     /**< type of the value */
     double min;                 /**< smallest value of a number */
