@@ -4,7 +4,8 @@
 Needs a built program (./demo.sh) and Python's standard library. The contents of each page are defined in
 the other methods_*.py files. Tables and commands are written into the pages between
 <!-- table:NAME --> or <!-- commands --> and <!-- end -->; the prose around them is written by hand. References and
-renders are cached in out/methods/; delete that folder after the program has changed.
+renders are cached in out/methods/. Renders of an older program are made anew, references are not: delete that folder
+after these have changed.
 """
 import hashlib
 import json
@@ -145,11 +146,14 @@ def run(arguments):
 
 
 def cached(kind, arguments, outputs):
-    """Runs the program once per set of arguments. Returns the paths of the outputs."""
+    """Runs the program once per set of arguments and build of it. Returns the paths of the outputs."""
     key = hashlib.sha256("\n".join([kind] + arguments).encode()).hexdigest()[:16]
     base = "%s/%s-%s" % (CACHE, kind, key)
     paths = [base + end for end in outputs]
-    if not all(os.path.exists(p) for p in paths):
+    built = 0 if kind == "reference" else os.path.getmtime(REFLET)
+    if not all(os.path.exists(p) and os.path.getmtime(p) > built for p in paths):
+        for path in filter(os.path.exists, paths):
+            os.remove(path)
         files = []
         for path in paths:
             files += ["--timings" if path.endswith(".json") else "-o", path]

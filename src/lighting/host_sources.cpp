@@ -30,6 +30,7 @@ PlanarView importPlanarView(gpu::PassList& f, const LightingSettings& settings, 
     const ViewContext context{.view = host.view, .environment = {}, .ggxTable = {}, .blueNoise = {}};
     PlanarView view{};
     view.seen = screenOf(f, context, settings, surfaces, light, {});
+    addPyramidOfPlanarView(f, settings, surfaces, view.seen);
     prefilterLight(f, settings, view.seen);
     view.mirror.plane = host.plane;
     view.mirror.tolerance = host.tolerance;

@@ -203,6 +203,13 @@ bool marchesPyramid(const LightingSettings& settings) {
     return settings.traceScreen.enabled != 0 && settings.traceScreen.method == TraceMethod::hiz;
 }
 
+void addPyramidOfPlanarView(gpu::PassList& f, const LightingSettings& settings, Surfaces& surfaces,
+                            ScreenImages& screen) {
+    if (settings.traceScreen.method == TraceMethod::hiz && !screen.pyramid) {
+        screen.pyramid = depthPyramid(f, surfaces);
+    }
+}
+
 bool readsScreenLight(const LightingSettings& settings, const RaySources& sources) {
     return settings.traceScreen.enabled != 0 || sources.readScreen;
 }

@@ -28,6 +28,11 @@ ScreenImages screenOf(gpu::PassList& f, const ViewContext& in, const LightingSet
 
 /// Whether rays march through Surfaces::pyramid.
 bool marchesPyramid(const LightingSettings& settings);
+
+/// Gives the screen of a planar view the pyramid: rays from mirrors march through it also if the picture's own screen
+/// is not traced.
+void addPyramidOfPlanarView(gpu::PassList& f, const LightingSettings& settings, Surfaces& surfaces,
+                            ScreenImages& screen);
 /// Whether any rays read ScreenImages::light.
 bool readsScreenLight(const LightingSettings& settings, const RaySources& sources);
 

@@ -2,6 +2,7 @@
 #include "compare/compare.h"
 #include "pass/mirror_room.h"
 #include "reference/reference.h"
+#include "scene/builtin.h"
 
 #include <fmt/format.h>
 
@@ -95,6 +96,24 @@ TEST(Planar, EveryMethodOfTracingFindsWhatAnEvenMirrorShows) {
     for (size_t i = 0; i < mask.size(); ++i) {
         EXPECT_TRUE(!mask[i] || hiz.images.at("specular_confidence").data[i] > 0.99F) << i;
     }
+}
+
+// Mirrors whose rays leave their pixel; planar views have hierarchical depth of their own, also if the screen has none.
+TEST(Planar, HierarchicalDepthFindsTheSameWithoutTheScreen) {
+    const Scene scene = findBuiltinScene("mirror-hall")->make();
+    const auto draw = [&](const char* method) {
+        return mirrored(scene, defaultView(scene),
+                        {std::string("trace_screen.method=") + method, "trace_screen.enabled=false", "planar.count=2"});
+    };
+    const Pictures pyramid = draw("hiz");
+    const Pictures all = draw("exhaustive");
+    size_t different = 0;
+    const std::vector<float>& a = pyramid.images.at("indirect_specular").data;
+    const std::vector<float>& b = all.images.at("indirect_specular").data;
+    for (size_t i = 0; i < a.size(); ++i) {
+        different += a[i] != b[i] ? 1 : 0;
+    }
+    EXPECT_EQ(different, 0U);
 }
 
 TEST(Planar, TheScreenAgreesWhereItIsSure) {

@@ -1,6 +1,7 @@
 // Records the screen and planar reflections as ray sources.
 #include "effects/lobe/trace_screen.h"
 
+#include "base/error.h"
 #include "gpu/context.h"
 
 #include <algorithm>
@@ -159,6 +160,8 @@ void traceScreen(gpu::PassList& f, Rays& rays, const ScreenImages& screen, const
 
 void traceMirror(gpu::PassList& f, Rays& rays, const PlanarView& mirror, const TraceScreenSettings& settings,
                  float longest) {
+    REFLET_CHECK(settings.method != TraceMethod::hiz || mirror.seen.pyramid || mirror.form != PlanarForm::traced,
+                 "a planar view without a pyramid");
     const gpu::BufferView missed = makeRayList(f, rays);
     record(f, f.compute("trace_mirror", "trace_screen.comp"), rays,
            {mirror.seen, throughOf(mirror.form), mirror.mirror}, settings, longest, {.end = settings.maxSteps}, missed);

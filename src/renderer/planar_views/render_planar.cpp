@@ -63,6 +63,7 @@ ScreenImages renderReflection(gpu::PassList& f, DirectViewStore& own, const View
         seen.screen.light =
             throughGlass(f, in, settings, seen, LightLayers{direct, {}, {}, seen.screen.light}).light.lit;
     }
+    lighting::addPyramidOfPlanarView(f, settings, seen.images, seen.screen);
     const bool blurred = settings.planar.form == PlanarForm::camera && settings.planar.cameraBlur > 1.0F;
     if (seen.screen.lightMips || blurred) {
         lighting::prefilterOwnLight(f, seen.screen);
