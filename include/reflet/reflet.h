@@ -128,7 +128,7 @@ typedef struct RefletContextInfo {
     size_t pipelineCacheDataSize;  /**< bytes */
     /**
      * Called with the text of every error, and with REFLET_SUCCESS for what refletDescribe calls a contradiction, once
-     * for each view; NULL: none.
+     * for each view and of its first 16 frames; NULL: none.
      */
     void (*log)(void* user, RefletResult result, const char* text);
     void* logUser; /**< passed to log */
