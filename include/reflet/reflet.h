@@ -424,8 +424,8 @@ typedef struct RefletFrameInfo {
      */
     float lightChange;
     /**
-     * 1: where no surface is, the picture that refletTemporal gets shows the environment of RefletIndirectLight as it is.
-     * While the camera turns, refletTemporal then filters it over each pixel instead of following it, which keeps
+     * 1: where no surface is, the picture that refletTemporal gets shows the environment of RefletIndirectLight as it
+     * is. While the camera turns, refletTemporal then filters it over each pixel instead of following it, which keeps
      * stars. 0: it may show anything.
      */
     uint32_t backgroundIsEnvironment;
@@ -595,8 +595,8 @@ typedef struct RefletEnvironment {
     size_t structSize; /**< required */
     /**
      * Radiance, equirectangular: its upper edge is `worldUp`. With +Y up the centre is -Z, and u grows toward +X, which
-     * is what a right-handed world sees. In a left-handed one (or one that is drawn mirrored) mirror the image from left
-     * to right. Absent: `factor` is the radiance from everywhere.
+     * is what a right-handed world sees. In a left-handed one (or one that is drawn mirrored) mirror the image from
+     * left to right. Absent: `factor` is the radiance from everywhere.
      */
     RefletImage image;
     float factor[3]; /**< times the image, 0 to 65504 / preExposure; all 0 and no image: black. With an image, all 0
