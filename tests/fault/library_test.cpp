@@ -169,13 +169,18 @@ protected:
                 return;
             }
             call("refletUseCommandBuffer", [&] { return refletUseCommandBuffer(view, commands); });
-            effects(call, view, settings, few, display);
+            effects(call, view, settings, {few, index % 2 == 1}, display);
             call("refletEndFrame", [&] { return refletEndFrame(view); });
         });
         return display;
     }
 
-    void effects(Caller& call, RefletView view, RefletSettings settings, bool few, RefletImage& display) {
+    // few: no more than the picture needs. denoises: the reflections are the host's.
+    struct Effects {
+        bool few;
+        bool denoises;
+    };
+    void effects(Caller& call, RefletView view, RefletSettings settings, const Effects& some, RefletImage& display) {
         RefletImage image{};
         RefletLobe lobe = test::emptyLobe();
         RefletComposite sum{};
@@ -183,17 +188,20 @@ protected:
         const RefletIndirectLight light = lightOfAllKinds();
         const RefletSunShadow sun = room_->sun();
         const RefletLens lens{sizeof lens, 0.2F, 3.0F, 6, 0.1F};
-        if (!few) {
+        if (!some.few) {
             call("refletSunShadow", [&] { return refletSunShadow(view, settings, &sun, &image); });
             call("refletLampShadows", [&] { return refletLampShadows(view, settings, &lamp_, 1, &image); });
             call("refletAmbientOcclusion", [&] { return refletAmbientOcclusion(view, settings, &image); });
             call("refletDiffuseGi", [&] { return refletDiffuseGi(view, settings, &light, &lobe); });
-            call("refletReflections", [&] { return refletReflections(view, settings, &light, &lobe); });
-            call("refletDenoise",
-                 [&] { return refletDenoise(view, settings, REFLET_LOBE_SPECULAR, &light.light, &lobe); });
+            if (some.denoises) {
+                call("refletDenoise",
+                     [&] { return refletDenoise(view, settings, REFLET_LOBE_SPECULAR, &light.light, &lobe); });
+            } else {
+                call("refletReflections", [&] { return refletReflections(view, settings, &light, &lobe); });
+            }
         }
         call("refletComposite", [&] { return refletComposite(view, settings, &light.light, &sum); });
-        if (!few) {
+        if (!some.few) {
             call("refletTemporal", [&] { return refletTemporal(view, settings, nullptr, &image); });
             call("refletDepthOfField", [&] { return refletDepthOfField(view, settings, &lens, nullptr, &image); });
             call("refletMotionBlur", [&] { return refletMotionBlur(view, settings, nullptr, &image); });
