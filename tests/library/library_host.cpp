@@ -112,6 +112,22 @@ void move(VkCommandBuffer commands, const RefletImage& image, VkImageLayout from
 
 }  // namespace
 
+void waitFor(VkCommandBuffer commands, const RefletBuffer& buffer, VkPipelineStageFlags2 stages,
+             VkAccessFlags2 access) {
+    VkBufferMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
+    barrier.srcStageMask = buffer.stages;
+    barrier.srcAccessMask = buffer.access;
+    barrier.dstStageMask = stages;
+    barrier.dstAccessMask = access;
+    barrier.buffer = buffer.buffer;
+    barrier.offset = buffer.offset;
+    barrier.size = buffer.size;
+    VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+    info.bufferMemoryBarrierCount = 1;
+    info.pBufferMemoryBarriers = &barrier;
+    vkCmdPipelineBarrier2(commands, &info);
+}
+
 HostBuffer::HostBuffer(const gpu::OpenDevice& open, size_t bytes, VkBufferUsageFlags usage) : device_(open.device) {
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = bytes;

@@ -39,6 +39,9 @@ private:
     VkDeviceMemory memory_ = VK_NULL_HANDLE;
 };
 
+/// A barrier from what wrote the buffer.
+void waitFor(VkCommandBuffer commands, const RefletBuffer& buffer, VkPipelineStageFlags2 stages, VkAccessFlags2 access);
+
 /// Opens a device with the features that the library needs, and counts what is made on it through `lookUp`.
 class LibraryHost {
 public:

@@ -15,22 +15,6 @@ namespace {
 
 constexpr uint32_t mostSets = 256;
 
-void waitFor(VkCommandBuffer commands, const RefletBuffer& buffer, VkPipelineStageFlags2 stages,
-             VkAccessFlags2 access) {
-    VkBufferMemoryBarrier2 barrier{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
-    barrier.srcStageMask = buffer.stages;
-    barrier.srcAccessMask = buffer.access;
-    barrier.dstStageMask = stages;
-    barrier.dstAccessMask = access;
-    barrier.buffer = buffer.buffer;
-    barrier.offset = buffer.offset;
-    barrier.size = buffer.size;
-    VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-    info.bufferMemoryBarrierCount = 1;
-    info.pBufferMemoryBarriers = &barrier;
-    vkCmdPipelineBarrier2(commands, &info);
-}
-
 }  // namespace
 
 RayHost::RayHost(const LibraryHost& host) : device_(host.host.device().device) {

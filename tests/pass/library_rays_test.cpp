@@ -89,8 +89,8 @@ private:
             EXPECT_REFLET(refletMissedRays(view_, settings_, kind, &light, &missed));
             rays =
                 std::make_unique<HostBuffer>(host_.host.device(), missed.rays.size, VK_BUFFER_USAGE_TRANSFER_DST_BIT);
-            barrier(commands, missed.rays, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
-            barrier(commands, missed.answers, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
+            waitFor(commands, missed.rays, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
+            waitFor(commands, missed.answers, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT);
             const VkBufferCopy all{missed.rays.offset, 0, missed.rays.size};
             vkCmdCopyBuffer(commands, missed.rays.buffer, rays->buffer, 1, &all);
         });
@@ -117,22 +117,6 @@ private:
         });
         host_.host.waitForAll();
         return lobe.radiance;
-    }
-
-    static void barrier(VkCommandBuffer commands, const RefletBuffer& buffer, VkPipelineStageFlags2 stages,
-                        VkAccessFlags2 access) {
-        VkBufferMemoryBarrier2 one{VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2};
-        one.srcStageMask = buffer.stages;
-        one.srcAccessMask = buffer.access;
-        one.dstStageMask = stages;
-        one.dstAccessMask = access;
-        one.buffer = buffer.buffer;
-        one.offset = buffer.offset;
-        one.size = buffer.size;
-        VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
-        info.bufferMemoryBarrierCount = 1;
-        info.pBufferMemoryBarriers = &one;
-        vkCmdPipelineBarrier2(commands, &info);
     }
 
     uint64_t answered_ = 0;
