@@ -212,7 +212,6 @@ void prepareFrame(RefletView_T& view, const Settings& settings, const RefletPrep
     if (asked(REFLET_EFFECT_LAMP_SHADOWS)) {
         prepareLamps(view, frame, settings, info, standIns);
     }
-    // Those of refletSunShadow may be off.
     if (asked(REFLET_EFFECT_CONTACT_SHADOWS) && settings.contact.distance > 0.0F) {
         recordContactShadows(view, frame, settings, vec4(0.0F, 1.0F, 0.0F, 0.0F));
     }

@@ -142,11 +142,29 @@ inline void store(float (&to)[3], const vec3& v) {
     std::memcpy(to, &v.x, sizeof to);
 }
 
-// refletSettingInfo does not list these. LibraryCamera looks them up.
-inline void setWhatTheHostDoes(RefletSettings made, const Settings& settings) {
-    for (const char* name : {"temporal.enabled", "temporal.scale"}) {
-        EXPECT_REFLET(refletSetSetting(made, name, settingText(settings, findSetting(name)).c_str()));
+// The library's settings, by its preset if it has that; all others as text. Both have the same in the end.
+inline RefletSettings librarySettings(const std::string& preset, const Settings& settings) {
+    const bool own = preset == "fast" || preset == "balanced" || preset == "quality";
+    RefletSettings made = nullptr;
+    EXPECT_REFLET(refletCreateSettings(own ? preset.c_str() : "", &made));
+    const auto set = [&](const std::string& name) {
+        EXPECT_REFLET(refletSetSetting(made, name.c_str(), settingText(settings, findSetting(name)).c_str()));
+    };
+    for (uint32_t i = 0; i < refletSettingCount(); ++i) {
+        RefletSettingInfo info{};
+        info.structSize = sizeof info;
+        EXPECT_REFLET(refletSettingInfo(i, &info));
+        const std::string name = info.name;
+        if (name.starts_with("input.")) {
+            continue;  // of what a host gives: the renderer has no host
+        }
+        if (!own || name == "contact.distance" || name == "tonemap.auto_exposure") {
+            set(name);
+        }
+        EXPECT_EQ(refletGetSetting(made, info.name), settingText(settings, findSetting(name))) << name;
     }
+    set("temporal.enabled");  // not listed, but LibraryCamera looks it up
+    return made;
 }
 
 class LibraryCamera {

@@ -37,29 +37,6 @@ Settings settingsOfPreset(const std::string& preset) {
     return settings;
 }
 
-// The library's settings, by its preset if it has that; all others as text. Both have the same in the end.
-RefletSettings librarySettings(const std::string& preset, const Settings& settings) {
-    const bool own = preset == "fast" || preset == "balanced" || preset == "quality";
-    RefletSettings made = nullptr;
-    EXPECT_REFLET(refletCreateSettings(own ? preset.c_str() : "", &made));
-    for (uint32_t i = 0; i < refletSettingCount(); ++i) {
-        RefletSettingInfo info{};
-        info.structSize = sizeof info;
-        EXPECT_REFLET(refletSettingInfo(i, &info));
-        if (std::string_view(info.name).starts_with("input.")) {
-            continue;  // of what a host gives: the renderer has no host
-        }
-        const std::string value = settingText(settings, findSetting(info.name));
-        const std::string changed[] = {"shadow.resolution", "contact.distance", "tonemap.auto_exposure"};
-        if (!own || std::ranges::find(changed, info.name) != std::end(changed)) {
-            EXPECT_REFLET(refletSetSetting(made, info.name, value.c_str()));
-        }
-        EXPECT_EQ(refletGetSetting(made, info.name), value) << info.name;
-    }
-    setWhatTheHostDoes(made, settings);
-    return made;
-}
-
 class LibraryPicture : public DeviceTest, public ::testing::WithParamInterface<std::string> {};
 
 // Of the G-buffer what effects read: numbers, and nothing but the depth where no surface is. Directions at a seam of
