@@ -8,11 +8,15 @@ vec2 nextSpoke(vec2 spoke) {
     return vec2(spoke.x * goldenTurn.x - spoke.y * goldenTurn.y, spoke.x * goldenTurn.y + spoke.y * goldenTurn.x);
 }
 
-// Distance of a tap from the middle, 0 to 1.
-float tapReach(int tap, int taps) { return sqrt((float(tap) + 0.5) / float(taps)); }
+// The first tap's direction on a disk of this many pixels, turned by an angle. Its length is that of one tap's share of the disk.
+vec2 firstSpoke(float radius, int taps, float turn) {
+    return radius * inversesqrt(float(taps)) * vec2(cos(turn), sin(turn));
+}
 
-// A tap's weight, exp(-1.5 reach²), and that of the next one.
+// Distance of a tap from the middle, in lengths of the spokes.
+float tapReach(int tap) { return sqrt(float(tap) + 0.5); }
+
+// The first tap's weight; each tap's is its square times that of the one before: exp(-1.5 reach²), with reach 1 at the disk's edge.
 float firstTapWeight(int taps) { return exp(-0.75 / float(taps)); }
-float nextTapWeight(float weight, int taps) { return weight * exp(-1.5 / float(taps)); }
 
 #endif

@@ -40,16 +40,16 @@ KeptSurface unpackSurface(uvec2 bits) {
     return KeptSurface(uintBitsToFloat(bits.x), octahedralDecode(n), float(bits.y >> 24u) / 255.0);
 }
 
-// Edge-stopping weight by normals and roughness, 0..1.
-float surfaceSimilarity(KeptSurface a, KeptSurface b, uint lobe) {
+// Edge-stopping weight by normals and roughness, 0..1. sharpness: how fast that of reflections falls with 1 - cosine, beyond what
+// it falls for all of them.
+float surfaceSimilarity(KeptSurface a, KeptSurface b, uint lobe, float sharpness) {
     float facing = max(dot(a.normal, b.normal), 0.0);
-    float f4 = facing * facing * facing * facing;
     if (lobe == 0u) {
+        float f4 = facing * facing * facing * facing;
         return f4 * f4;
     }
     float rough = clamp(1.0 - 8.0 * abs(a.roughness - b.roughness), 0.0, 1.0);
-    float f16 = f4 * f4 * f4 * f4;
-    return f16 * f16 * rough;
+    return exp(-(32.0 + sharpness) * max(1.0 - facing, 0.0)) * rough;
 }
 
 // The same for diffuse light that is adapted to each surface's normal (directional_light.glsl).

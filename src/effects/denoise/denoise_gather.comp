@@ -85,7 +85,6 @@ Neighbourhood gatherNeighbourhood(ivec2 pixel, float d, ScreenPlane plane) {
     vec3 spread = vec3(0.0);
     vec3 sum = vec3(0.0);
     vec3 squares = vec3(0.0);
-    float inside = 0.0;
     float traced = 0.0;
     float away = 0.0;
     float viewDistance = depthToViewDistance(d, params.view.depthToDistance);
@@ -94,40 +93,33 @@ Neighbourhood gatherNeighbourhood(ivec2 pixel, float d, ScreenPlane plane) {
     s.traced = false;
     for (int i = 0; i < 9; ++i) {
         ivec2 o = ivec2(i % 3, i / 3) - 1;
-        ivec2 at = pixel + o;
-        if (any(lessThan(at, ivec2(0))) || any(greaterThan(at, last))) {
-            continue;
-        }
+        // Beyond the image's edge its outermost pixels once more, so that each pixel's excess is taken nine times everywhere.
+        ivec2 at = clamp(pixel + o, ivec2(0), last);
         vec4 texel = imageLoad(radiance, at);
-        inside += 1.0;
-        if (meanRays > 0u && texel.a < 0.0) {
-            continue;
-        }
-        traced += 1.0;
+        float limit = imageLoad(limits, ivec2(uvec2(at) / denoiseTileSide)).r;
+        float depthStep = texelFetch(depth, at, 0).r - d;
         vec3 light = clampToHalf(texel.rgb);
         float bright = luminance(light);
-        float limit = imageLoad(limits, at / int(denoiseTileSide)).r;
-        vec3 kept = light * min(1.0, limit / max(bright, 1e-12));
-        // A pixel's excess is split among its neighbours, fewer at the image's edges.
-        ivec2 neighbours = 3 - ivec2(equal(at, ivec2(0))) - ivec2(equal(at, last));
-        spread += (light - kept) / float(neighbours.x * neighbours.y);
-        if (i == 4) {
-            s.light.rgb = kept;
-            if (hasDirectional != 0u) {
-                s.directional = imageLoad(directional, at) * min(1.0, limit / max(bright, 1e-12));
-            }
+        float kept = bright > limit ? limit / bright : 1.0;
+        bool hasRays = meanRays == 0u || texel.a >= 0.0;
+        traced += hasRays ? 1.0 : 0.0;
+        spread += hasRays ? light * (1.0 - kept) : vec3(0.0);
+        light *= kept;
+        if (i == 4 && hasRays) {
+            s.light.rgb = light;
+            s.directional = hasDirectional != 0u ? kept * imageLoad(directional, at) : vec4(0.0);
             s.traced = true;
         }
-        if (onSurface(plane, vec2(o), texelFetch(depth, at, 0).r - d)) {
-            sum += kept;
-            squares += kept * kept;
+        if (hasRays && at == pixel + o && onSurface(plane, vec2(o), depthStep)) {
+            sum += light;
+            squares += light * light;
             s.found += 1.0;
             away += clamp(lobe == 0u ? nearnessOf(texel.a, pixelWidth) : texel.a, 0.0, largestHalf);
         }
     }
     float found = max(s.found, 1.0);
     // Only pixels with rays in this frame take the excess.
-    s.light.rgb += meanRays > 0u ? spread * inside / max(traced, 1.0) : spread;
+    s.light.rgb += spread / (meanRays > 0u ? max(traced, 1.0) : 9.0);
     s.light.a = away / found;
     s.mean = sum / found;
     s.variance = max(squares / found - s.mean * s.mean, imageLoad(limits, pixel / int(denoiseTileSide)).g);
@@ -160,7 +152,7 @@ void addHistory(HistoryLookup w, KeptSurface own, ScreenPlane plane, ivec2 texel
     // At rest what a rough mirror shows is the same, however much the distances of single rays differ.
     bool same = w.away < 0.0 || params.view.rest > 0u || isSameReflectedObject(w.away, light.a, own.roughness);
     // Directional light fits other normals, too.
-    float alike = hasDirectional != 0u ? normalSimilarity(own, there) : surfaceSimilarity(own, there, lobe);
+    float alike = hasDirectional != 0u ? normalSimilarity(own, there) : surfaceSimilarity(own, there, lobe, 0.0);
     float allowed = heightSlack + distanceSlack / params.view.pixelAngle;
     if (!same || there.depth <= 0.0 || abs(height) > allowed || alike <= 0.3) {
         return;

@@ -33,11 +33,12 @@ void main() {
     vec4 factor = imageLoad(hitFactor, slot);
     vec3 normal = unpackUnitVector(imageLoad(hitNormal, slot).r);
     float turn = 6.2831853 * hashToUnit(hashPixel(uvec2(pixel), 97u + uint(slot.z), params.frame));
-    vec2 spoke = params.radius * vec2(cos(turn), sin(turn));
+    vec2 spoke = firstSpoke(params.radius, taps, turn);
     vec4 sum = light;
     float near = firstTapWeight(taps);
+    float falls = near * near;
     for (int i = 0; i < taps; ++i) {
-        ivec2 at = pixel + ivec2(round(tapReach(i, taps) * spoke));
+        ivec2 at = pixel + ivec2(round(tapReach(i) * spoke));
         spoke = nextSpoke(spoke);
         ivec3 other = ivec3(at, slot.z);
         vec4 there = all(greaterThanEqual(at, ivec2(0))) && all(lessThan(at, size)) ? imageLoad(hitLight, other) : vec4(0.0);
@@ -47,7 +48,7 @@ void main() {
             float same = exp2(-abs(away - factor.a) / (sameDistance * max(max(away, factor.a), 1e-6)));
             sum += near * pow(facing, 8.0) * same * there;
         }
-        near = nextTapWeight(near, taps);
+        near *= falls;
     }
     vec4 found = imageLoad(answer, slot);
     found.rgb = clampToHalf(found.rgb + factor.rgb * sum.rgb / sum.a);
