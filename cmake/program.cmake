@@ -46,7 +46,8 @@ reflet_version(reflet_job)
 reflet_library(reflet_measure measure reflet_job reflet_compare)
 file(GLOB report_files CONFIGURE_DEPENDS src/measure/report/*.css src/measure/report/*.js)
 reflet_embed(reflet_measure reportFiles ${report_files})
-reflet_embed(reflet_measure qualifyFiles src/measure/qualify/grids.json)
+reflet_embed(reflet_measure qualifyFiles src/measure/qualify/grids.json
+    src/measure/qualify/model.json)
 reflet_library(reflet_dataset dataset reflet_job)
 reflet_library(reflet_cli cli reflet_measure reflet_dataset PUBLIC CLI11::CLI11)
 

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Models milliseconds on GPUs that are not here: docs/gpu_model.py STATS.json [--markdown | PRESET].
+"""Models milliseconds on GPUs that are not here: docs/gpu_model.py STATS.json --markdown | --json | PRESET.
 
 STATS.json is written by `REFLET_GPU_STATISTICS=STATS.json build/bin/gpu_compiler_tests`: instructions of every loop by
-the compiler for NAVI21, dispatches and bound images of steady 1920x1080 frames. With --markdown it prints docs/gpu-model.md,
-with a preset every pass of it.
+the compiler for NAVI21, dispatches and bound images of steady 1920x1080 frames. With --markdown it prints docs/gpu-model.md, with --json
+src/measure/qualify/model.json, with a preset every pass of it.
 
 A pass costs the largest of four times, a quarter of the others that compete with it, and the time of a barrier:
 issue of vector instructions, issue of memory instructions, bytes over bandwidth, and latency that the waves do not hide.
@@ -24,14 +24,16 @@ GPUS = {
 }
 # Trips of loops, in the order in which they begin, where a pass is no fixed number of them. Of the march: the most steps
 # of 64 rays that go together, measured on the CPU device (quality, 960x540, mean of cave, cubes, gloss, colonnade and moving):
-# 101 of reflections, 63 of diffuse rays; in phases 32, 32, 64 and 31, 32, 32. Of lists: what a picture with a penumbra in a
+# 101 of reflections, 63 of diffuse rays; in phases 32, 32, 64 and 31, 32, 32. Of blurs: the most taps of 64 pixels that go together,
+# in the same scenes (quality, 480x270, frame 14, mean of its three passes). Of lists: what a picture with a penumbra in a
 # quarter of its tiles and half of it out of focus has.
 TRIPS = {
     "specular.trace_at_once": [1, 3, 1, 32], "specular.trace_at_once.32": [1, 1, 3, 1, 32], "specular.trace_at_once.64": [1, 1, 3, 64],
     "diffuse.trace_at_once": [1, 1, 31], "diffuse.trace_at_once.32": [1, 1, 1, 32], "diffuse.trace_at_once.64": [1, 1, 32],
     "specular.trace_screen": [1, 1, 32], "specular.trace_screen.32": [1, 1, 32], "specular.trace_screen.64": [1, 64],
     "shadow_visibility": [1, 1, 12, 6, 6],
-    "diffuse.denoise_gather": [9, 4, 0.3], "specular.denoise_gather": [9, 2.5, 0.3, 4, 0.3], "denoise_blur": [8],
+    "diffuse.denoise_gather": [4, 0.3], "specular.denoise_gather": [2.5, 0.3, 4, 0.3], "ao.denoise_gather": [4, 0.3],
+    "diffuse.denoise_blur": [4.0], "specular.denoise_blur": [6.2], "ao.denoise_blur": [4.8],
     "temporal": [4, 4, 3], "temporal.upscale": [4, 3], "ao.slices_at_once": [2, 6, 6], "diffuse.slices_at_once": [2, 8, 8], "tiles": [8, 8], "dof.coc": [2.7], "dof.highlights": [5.1, 6],
     "dof.composite.5": [3, 2], "dof.composite.6": [4, 4], "dof.composite.7": [4, 4, 3, 2],
     "dof.reach": [11], "dof.gather": [6, 46, 46, 4], "dof.gather_large": [6, 46, 46], "exposure.smooth": [16] + [20] * 10,
@@ -140,6 +142,19 @@ def page(stats):
           "qualify.json; attach both to an issue\n    docs/performance.sh gpu          # then docs/gpu.py writes gpu.md")
 
 
+def stored(stats):
+    """By preset and pass of the program's name: milliseconds on each GPU."""
+    presets = {}
+    for preset in ("fast", "balanced", "quality"):
+        passes = presets[preset] = {}
+        for i, name in enumerate(("RX 6800 XT", "RTX 3060")):
+            for label, time, _ in frame(stats, preset, GPUS[name]):
+                label = re.sub(r"(trace_\w+)\.\d+$", r"\1", label).replace("trace_at_once", "trace_screen")
+                passes.setdefault(label, [0.0, 0.0])[i] += 1e3 * time
+    rounded = {p: {k: [round(v, 3) for v in ms] for k, ms in passes.items()} for p, passes in presets.items()}
+    print("{\n" + ",\n".join(f'"{p}": ' + json.dumps(passes) for p, passes in rounded.items()) + "\n}")
+
+
 def main():
     if len(sys.argv) != 3:
         sys.exit(__doc__)
@@ -147,6 +162,8 @@ def main():
         stats = json.load(file)
     if sys.argv[2] == "--markdown":
         return page(stats)
+    if sys.argv[2] == "--json":
+        return stored(stats)
     for name, gpu in GPUS.items():
         rows = frame(stats, sys.argv[2], gpu)
         print(f"{name}: {1e3 * sum(r[1] for r in rows):.2f} ms")

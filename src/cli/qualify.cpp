@@ -32,6 +32,7 @@ QualifyPlan planOf(const QualifyCommand& command) {
     QualifyPlan plan;
     plan.presets = command.presets;
     plan.seconds = command.seconds;
+    plan.references = !command.grids.empty();
     for (const std::string& name : command.scenes) {
         if (findBuiltinScene(name) == nullptr) {
             failUsage("--scenes: there is no built-in scene '{}' (all of them: reflet list scenes)", name);
@@ -88,7 +89,7 @@ void qualify(const QualifyCommand& command) {
     writeFileAtomically(page, markdownOf(document));
     writeFileAtomically(json, qualificationJson(q));
     if (!command.grids.empty()) {
-        writeFileAtomically(command.grids, gridsText(q.pictures));
+        writeFileAtomically(command.grids, gridsText(q));
     }
     fmt::print("{}", plainTextOf(document, 120));
     fmt::print("\nwritten: {} and {}; please attach both to an issue\n", page, json);
@@ -122,7 +123,7 @@ void addQualifyCommand(CLI::App& app) {
         ->type_name("S")
         ->check(CLI::Range(0.0, 86400.0))
         ->capture_default_str();
-    command->add_option("--write-grids", options->grids, "Also write the pictures as the program stores them")
+    command->add_option("--write-grids", options->grids, "Also write the pictures, and path-traced references, as the program stores them")
         ->type_name("FILE");
     command->footer(
         "The exit status is 0 only if everything passed. What is compared and allowed is in docs/devices.md.");

@@ -23,6 +23,11 @@ TEST_F(QualifyTest, WritesAPageAndJson) {
     ASSERT_EQ(json.at("pictures").size(), 1U);
     EXPECT_EQ(json.at("pictures")[0].at("luminance").size(), 144U);
     EXPECT_LE(json.at("pictures")[0].at("mean_difference"), 0.02);  // null, without a stored picture, throws
+    // The error against the reference is that of llvmpipe's stored picture, within the tolerance of the pictures.
+    const double error = json.at("pictures")[0].at("reference_error");
+    EXPECT_GT(error, 0.005);
+    EXPECT_NEAR(error, json.at("pictures")[0].at("reference_error_llvmpipe"), 0.02);
+    EXPECT_TRUE(json.at("timed").at("presets").at("fast").at("modelled_passes_ms").empty());  // of 1920x1080 alone
     EXPECT_GT(json.at("timed").at("presets").at("fast").at("frame_ms"), 0.0);
     EXPECT_GT(json.at("timed").at("presets").at("fast").at("passes_ms").size(), 20U);
     EXPECT_GE(json.at("stability").at("rounds"), 2);

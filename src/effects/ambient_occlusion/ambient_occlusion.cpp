@@ -7,6 +7,9 @@ namespace reflet {
 
 namespace {
 
+// More do not help, as slices leave little noise: in four scenes the error after 2 and after 24 frames is within 5 % with 1, 2 or 3.
+constexpr uint32_t mostBlurs = 1;
+
 SliceTracing slicesOf(const AoInputs& in) {
     const AoSettings& s = in.settings;
     SliceTracing slices{.slice = {s.steps, s.radius, s.falloff, s.thickness},
@@ -37,7 +40,9 @@ gpu::Image ambientOcclusion(gpu::PassList& f, DenoiseStore* own, const AoInputs&
                                    .directional = true};
     LobeLight light = ambientSlices(f, generation, slicesOf(in));
     if (in.denoise.enabled != 0) {
-        light = denoise(f, own, light, lobeDiffuse, in.view, in.denoise);
+        DenoiseSettings settings = in.denoise;
+        settings.passes = std::min(settings.passes, mostBlurs);
+        light = denoise(f, own, light, lobeDiffuse, in.view, settings);
     }
     const gpu::Image result = f.image("ambient_occlusion", VK_FORMAT_R16G16B16A16_SFLOAT, in.g.depth.size);
     f.compute("finish_ao", "finish_ao.comp")

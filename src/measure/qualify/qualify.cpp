@@ -5,7 +5,7 @@
 #include "base/progress.h"
 #include "capture/spread.h"
 #include "job/scene_options.h"
-#include "measure/bench/subject.h"
+#include "measure/bench/truth.h"
 
 #include <algorithm>
 #include <bit>
@@ -18,6 +18,7 @@ namespace {
 
 constexpr const char* timedScene = "cave";
 constexpr const char* steadyScene = "moving";
+constexpr const char* referenceName = "reference";
 
 BenchScene builtin(const std::string& name) {
     SceneOptions options;
@@ -46,6 +47,27 @@ LuminanceGrid gridOf(const FloatImage& image) {
         }
     }
     return grid;
+}
+
+LuminanceGrid referenceOf(gpu::Device& device, const BenchScene& scene) {
+    TruthOptions options;
+    options.reference.samples = 1024;
+    options.folder = standardTruthFolder();
+    return gridOf(getTruth(device, scene, qualifySize, {}, options).layers.at("final"));
+}
+
+// Against what is stored.
+void judge(QualifiedPicture& picture, const std::map<std::string, LuminanceGrid>& stored) {
+    const auto known = stored.find(picture.scene + " " + picture.preset);
+    const auto reference = stored.find(picture.scene + " " + referenceName);
+    if (!picture.finite || known == stored.end()) {
+        return;
+    }
+    picture.difference = differenceOf(picture.grid, known->second);
+    if (reference != stored.end()) {
+        picture.error = differenceOf(picture.grid, reference->second).mean;
+        picture.storedError = differenceOf(known->second, reference->second).mean;
+    }
 }
 
 }  // namespace
@@ -91,11 +113,11 @@ void qualifyPictures(const QualifyPlan& plan, gpu::Device& device, Qualification
             picture.preset = preset;
             picture.grid = gridOf(image);
             picture.finite = std::ranges::all_of(image.data, [](float v) { return std::isfinite(v); });
-            const auto known = stored.find(name + " " + preset);
-            if (known != stored.end() && picture.finite) {
-                picture.difference = differenceOf(picture.grid, known->second);
-            }
+            judge(picture, stored);
             progress.advance();
+        }
+        if (plan.references) {
+            to.references[name] = referenceOf(device, scene);
         }
     }
 }

@@ -37,7 +37,8 @@ struct QualifyPlan {
     std::vector<std::string> presets;  ///< "fast"
     uvec2 timedSize{0};                ///< pixels of timed frames
     uint32_t timedFrames = 10;
-    double seconds = 60.0;  ///< of the stability run
+    double seconds = 60.0;    ///< of the stability run
+    bool references = false;  ///< path trace them, for grids that are to be stored
 };
 
 struct QualifiedPicture {
@@ -46,6 +47,8 @@ struct QualifiedPicture {
     LuminanceGrid grid;
     bool finite = true;
     std::optional<GridDifference> difference;  ///< none: no picture is stored
+    std::optional<double> error;               ///< mean difference from the path-traced picture; none: none is stored
+    std::optional<double> storedError;         ///< that of llvmpipe's picture
     [[nodiscard]] bool passes() const;
 };
 
@@ -72,6 +75,7 @@ struct Qualification {
     bool validated = false;             ///< the validation layer was there
     std::vector<std::string> messages;  ///< its messages
     std::vector<QualifiedPicture> pictures;
+    std::map<std::string, LuminanceGrid> references;  ///< by scene, with QualifyPlan.references
     uvec2 timedSize{0};
     std::string timedScene;
     std::vector<QualifiedTimes> times;
@@ -79,9 +83,10 @@ struct Qualification {
     [[nodiscard]] bool passes() const;
 };
 
-/// By "scene preset": the grids that the program has, of llvmpipe.
+/// By "scene preset": the grids that the program has, of llvmpipe; by "scene reference": of the path tracer.
 std::map<std::string, LuminanceGrid> storedGrids();
-std::string gridsText(const std::vector<QualifiedPicture>& pictures);
+std::string gridsText(const Qualification& q);
+
 GridDifference differenceOf(const LuminanceGrid& grid, const LuminanceGrid& stored);
 
 /// Each adds its part. Show progress. Throw Error.
