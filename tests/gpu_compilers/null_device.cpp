@@ -21,11 +21,11 @@ constexpr std::array deviceExtensions{VK_KHR_PIPELINE_EXECUTABLE_PROPERTIES_EXTE
 
 const NullDevice* NullDevice::get() {
     static NullDevice device;
-    static const bool opened = device.open();
+    static const bool opened = device.create();
     return opened ? &device : nullptr;
 }
 
-bool NullDevice::open() {
+bool NullDevice::create() {
     const char* manifest = "/usr/share/vulkan/icd.d/radeon_icd.x86_64.json";
     if (!std::filesystem::exists(manifest)) {
         return false;

@@ -1,6 +1,8 @@
 // A GPU that is not there: Mesa's driver for AMD GPUs (RADV) has a null device, whose compiler is the real one.
 #pragma once
 
+#include "gpu/context.h"
+
 #include "reflet/reflet.h"
 
 #include <string>
@@ -15,12 +17,15 @@ public:
 
     /// Its pointers are valid as long as the device.
     [[nodiscard]] RefletContextInfo contextInfo() const;
+    [[nodiscard]] gpu::OpenDevice open() const {
+        return {instance_, physical_, device_, contextInfo().getInstanceProcAddr};
+    }
     /// "radv Mesa 22.3.6".
     [[nodiscard]] const std::string& driver() const { return driver_; }
 
 private:
     NullDevice() = default;
-    bool open();
+    bool create();
 
     std::string driver_;
     VkInstance instance_ = VK_NULL_HANDLE;

@@ -14,6 +14,7 @@
 #include <volk.h>
 
 std::span<const reflet::gpu::Shader> effectShaders();
+std::span<const reflet::gpu::Shader> rendererShaders();
 
 namespace reflet::gpu_compilers {
 
@@ -58,14 +59,17 @@ F real(VkDevice device, const char* name) {
 VKAPI_ATTR VkResult VKAPI_CALL makeModule(VkDevice device, const VkShaderModuleCreateInfo* info,
                                           const VkAllocationCallbacks* host, VkShaderModule* module) {
     const VkResult result = real<PFN_vkCreateShaderModule>(device, "vkCreateShaderModule")(device, info, host, module);
-    const auto shaders = effectShaders();
-    const auto same = [&](const gpu::Shader& shader) {
-        return shader.words.size_bytes() == info->codeSize &&
-               std::memcmp(shader.words.data(), info->pCode, info->codeSize) == 0;
-    };
-    const auto found = std::ranges::find_if(shaders, same);
     const std::scoped_lock lock(record().mutex);
-    record().modules[*module] = found == shaders.end() ? nullptr : &*found;
+    record().modules[*module] = nullptr;
+    for (const auto shaders : {effectShaders(), rendererShaders()}) {
+        const auto found = std::ranges::find_if(shaders, [&](const gpu::Shader& shader) {
+            return shader.words.size_bytes() == info->codeSize &&
+                   std::memcmp(shader.words.data(), info->pCode, info->codeSize) == 0;
+        });
+        if (found != shaders.end()) {
+            record().modules[*module] = &*found;
+        }
+    }
     return result;
 }
 

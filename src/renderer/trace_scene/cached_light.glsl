@@ -45,8 +45,7 @@ const uint mostToldCells = 4u;
 struct ToldCells {
     uint count;
     uint slots[mostToldCells];
-    vec3 radiance[mostToldCells];    // of the path before
-    vec3 throughput[mostToldCells];  // of what comes after
+    uvec3 known[mostToldCells];  // radiance of the path before, throughput of what comes after; half floats, as registers are few
 };
 
 void tellLater(inout ToldCells told, LitPoint at, vec3 radiance, vec3 throughput) {
@@ -55,8 +54,10 @@ void tellLater(inout ToldCells told, LitPoint at, vec3 radiance, vec3 throughput
     }
     float side = cacheCellSide(at.position, params.view.eye, params.cellSize);
     told.slots[told.count] = findOrAddCacheCell(cachePlace(at.position, at.normal, side));
-    told.radiance[told.count] = radiance;
-    told.throughput[told.count] = throughput;
+    vec3 before = clampToHalf(radiance);
+    vec3 after = clampToHalf(throughput);
+    told.known[told.count] =
+        uvec3(packHalf2x16(before.rg), packHalf2x16(vec2(before.b, after.r)), packHalf2x16(after.gb));
     ++told.count;
 }
 
@@ -64,7 +65,10 @@ void tellLater(inout ToldCells told, LitPoint at, vec3 radiance, vec3 throughput
 void tellCells(ToldCells told, vec3 radiance, inout uint random) {
     for (uint i = 0u; i < told.count; ++i) {
         if (told.slots[i] != noCacheSlot) {
-            vec3 found = (radiance - told.radiance[i]) / max(told.throughput[i], vec3(1e-3));
+            vec2 between = unpackHalf2x16(told.known[i].y);
+            vec3 before = vec3(unpackHalf2x16(told.known[i].x), between.x);
+            vec3 after = vec3(between.y, unpackHalf2x16(told.known[i].z));
+            vec3 found = (radiance - before) / max(after, vec3(1e-3));
             feedCache(told.slots[i], found, nextRandom(random));
         }
     }
