@@ -83,7 +83,8 @@ void traceSceneFallback(gpu::PassList& f, Rays& rays, const ViewInputs& in, cons
                 .mips = settings.materials.mips,
                 .fromPrevious = previous ? 1U : 0U,
                 .firstRay = rays.firstRay,
-                .cellSize = settings.radianceCache.cellSize});
+                .cellSize = settings.radianceCache.cellSize,
+                .samplesToEnd = in.cache.samplesToEnd});
 }
 
 }  // namespace reflet

@@ -63,6 +63,8 @@ namespace reflet {
 struct CacheBuffers {
     gpu::BufferView keys;   ///< uint per slot; 0: free
     gpu::BufferView cells;  ///< CacheCell per slot
+    /// Paths end in a cell with the probability 1 - this / its samples; those that go on feed it.
+    float samplesToEnd = 0.0F;
     explicit operator bool() const { return bool(cells); }
 };
 
@@ -78,6 +80,7 @@ private:
     gpu::KeptBuffer cells_{"radiance_cache.cells"};
     uint64_t generation_ = 0;
     uint32_t frames_ = 0;  ///< since the table was empty
+    float unrest_ = 0.0F;  ///< how much of what cells know may be of other light, 0 to 1
 };
 
 }  // namespace reflet

@@ -11,11 +11,8 @@ struct CachedLight {
 
 const CachedLight noCachedLight = CachedLight(vec3(0.0), 0.0);
 
-// A cell of fewer samples is not trusted: paths go on, for so many bounces more.
-const float enoughSamples = 1.0;
+// Paths go on past what they would end in for so many bounces more.
 const uint bouncesPastCache = 3u;
-// Share of the paths that go on behind a known cell and feed it.
-const float feedingShare = 0.25;
 // A cell of so many samples already ends half of the paths at their first hit: less noise, and fewer rays.
 const float manySamples = 16.0;
 const float shareOfMany = 0.5;
@@ -33,7 +30,7 @@ CachedLight cachedLight(LitPoint at, inout uint random) {
     float side = cacheCellSide(at.position, params.view.eye, params.cellSize);
     vec2 away = (nextRandom2(random) - 0.5) * side;
     CachedLight near = cellLight(at.position + basisAround(at.geometricNormal) * vec3(away, 0.0), at.normal, side);
-    if (near.weight >= enoughSamples) {
+    if (near.weight > params.samplesToEnd) {
         return near;
     }
     CachedLight own = cellLight(at.position, at.normal, side);
@@ -83,8 +80,7 @@ bool endsHere(uint bounce, CachedLight known, inout uint random) {
     if (!far && known.weight >= manySamples) {
         return nextRandom(random) < shareOfMany;
     }
-    bool goesOn = known.weight < enoughSamples || nextRandom(random) < feedingShare;
-    return far && !(goesOn && bounce < params.bounces + bouncesPastCache);
+    return far && (bounce >= params.bounces + bouncesPastCache || nextRandom(random) * known.weight >= params.samplesToEnd);
 }
 
 #endif

@@ -71,7 +71,8 @@ struct TraceSceneParams {
     uint mips;          // 0: textures are read at the finest level
     uint fromPrevious;  // 1: screen light is the last frame's
     uint firstRay;
-    float cellSize;  // of the radiance cache
+    float cellSize;      // of the radiance cache
+    float samplesToEnd;  // of CacheBuffers
 };
 
 // Values of the specialization constant `sunShadows`.
