@@ -84,6 +84,9 @@ std::vector<vec4> DenoiseRun::add(const LitWall& light, const WallFrame& wall) {
     lobe.radiance = filler.colors("radiance", radiance);
     lobe.imageMotion = filler.fill("image_motion", VK_FORMAT_R16G16_SFLOAT, "fill_pair_test.comp",
                                    std::vector<vec4>(count, vec4(wall.imageMotion / vec2(size_), 0.0F, 0.0F)));
+    if (wall.remembered) {
+        lobe.remembered = filler.colors("remembered", std::vector<vec4>(count, *wall.remembered));
+    }
     const LobeLight clean = denoise(frame_, &store_, lobe, lobe_, view, settings_);
     const gpu::Readback copy = frame_.readback(clean.radiance);
     frame_.submit();

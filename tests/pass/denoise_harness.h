@@ -6,6 +6,7 @@
 #include "scene/scene.h"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace reflet::test {
@@ -21,10 +22,11 @@ struct LitPixel {
 using LitWall = std::function<LitPixel(uvec2 pixel)>;
 
 struct WallFrame {
-    float cameraX = 0.0F;    ///< metres
-    vec2 wallMotion{0.0F};   ///< of the wall itself, pixels
-    float roughness = 0.5F;  ///< of the wall
-    vec2 imageMotion{0.0F};  ///< object motion of what the wall mirrors, pixels
+    float cameraX = 0.0F;              ///< metres
+    vec2 wallMotion{0.0F};             ///< of the wall itself, pixels
+    float roughness = 0.5F;            ///< of the wall
+    vec2 imageMotion{0.0F};            ///< object motion of what the wall mirrors, pixels
+    std::optional<vec4> remembered{};  ///< LobeLight::remembered, in all pixels
 };
 
 class DenoiseRun {

@@ -162,6 +162,18 @@ TEST_P(Denoise, APixelThatShowedAnotherSurfaceTakesTheHistoryOfItsNeighbours) {
     EXPECT_EQ(second[10 * size.x + 20].x, 5.0F);
 }
 
+// Known light of three frames, in place of a history; then the history alone.
+TEST_P(Denoise, StartsFromWhatIsRemembered) {
+    DenoiseRun run(device(), size, GetParam(), pastAlone());
+    const WallFrame known{.roughness = 1.0F, .remembered = vec4(2.0F, 2.0F, 2.0F, 3.0F)};
+    const LitWall light = [](uvec2) { return LitPixel{vec3(8.0F)}; };
+    EXPECT_EQ(run.add(light, known)[10 * size.x + 20].x, (3 * 2.0F + 8.0F) / 4);
+    EXPECT_NEAR(run.add(light, known)[10 * size.x + 20].x, (3 * 2.0F + 2 * 8.0F) / 5, 0.01F);
+    // Nothing known: the frame alone.
+    DenoiseRun other(device(), size, GetParam(), pastAlone());
+    EXPECT_EQ(other.add(light, {.roughness = 1.0F, .remembered = vec4(0.0F)})[10 * size.x + 20].x, 8.0F);
+}
+
 TEST_P(Denoise, PixelsWeighByTheirHistoryInTheBlur) {
     DenoiseSettings settings = pastAlone();
     settings.passes = 1;

@@ -17,6 +17,7 @@ layout(constant_id = 1) const uint hasImageMotion = 0u;
 layout(constant_id = 2) const uint meanRays = 0u;
 
 layout(constant_id = 3) const uint hasDirectional = 0u;
+layout(constant_id = 4) const uint hasRemembered = 0u;
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(scalar) uniform ParamsBlock { DenoiseGatherParams params; };
@@ -37,6 +38,7 @@ layout(rg16f) uniform writeonly image2D moments;
 layout(rgba16f) uniform writeonly image2D gathered;
 layout(rg32f) uniform readonly image2D tiles;
 layout(rgba16f) uniform readonly image2D directional;
+layout(rgba16f) uniform readonly image2D remembered;
 layout(rgba16f) uniform readonly image2D previousDirectional;
 layout(rgba16f) uniform writeonly image2D nextDirectional;
 layout(rgba16f) uniform writeonly image2D gatheredDirectional;
@@ -243,6 +245,13 @@ HistorySample reprojectHistory(ivec2 pixel, vec3 p, KeptSurface own, ScreenPlane
                 mix(still.square, image.square, asImage), vec4(0.0));  // only reflections get here
 }
 
+// In place of a history: what the light's source knows, with the noise that the variance of single frames would have.
+HistorySample rememberedHistory(ivec2 pixel, float away) {
+    vec4 known = imageLoad(remembered, pixel);
+    float bright = min(luminance(known.rgb), 255.0);
+    return HistorySample(vec4(known.rgb, away), known.a, 2.0 * bright * bright, directionalFromAmbient(bright));
+}
+
 // History clip (variance clipping): limits the history to current neighbours, within their noise. Clipped history
 // counts as fewer frames.
 void clipHistory(Neighbourhood seen, inout HistorySample past) {
@@ -293,7 +302,9 @@ void main() {
     Neighbourhood seen = gatherNeighbourhood(pixel, d, plane);
     float bright = min(luminance(seen.light.rgb), 255.0);  // so that its square fits a half float
     HistorySample past = params.hasPrevious != 0u ? reprojectHistory(pixel, p, own, plane, seen.light.a) : noHistory;
-    if (past.frames > 0.0 && params.settings.clip > 0.0 && (meanRays == 0u || seen.found > 0.0)) {
+    if (hasRemembered != 0u && past.frames == 0.0) {
+        past = rememberedHistory(pixel, seen.light.a);
+    } else if (past.frames > 0.0 && params.settings.clip > 0.0 && (meanRays == 0u || seen.found > 0.0)) {
         clipHistory(seen, past);
     }
     float count = 1.0;  // weight of this frame, in frames

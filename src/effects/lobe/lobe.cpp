@@ -153,9 +153,15 @@ void traceBatchAtOnce(gpu::PassList& f, const LobeInputs& in, const LobePlan& pl
     }
 }
 
-LobeLight denoised(gpu::PassList& f, LobeStore* own, const LobeInputs& in, const LobeLight& light) {
+LobeLight denoised(gpu::PassList& f, LobeStore* own, const LobeInputs& in, LobeLight light) {
     DenoiseStore* history = own != nullptr ? &own->denoise : nullptr;
-    return in.denoise.enabled != 0 ? denoise(f, history, light, in.lobe, in.view, in.denoise) : light;
+    if (in.denoise.enabled == 0) {
+        return light;
+    }
+    if (in.remembered && history != nullptr && in.denoise.history > 0) {
+        light.remembered = in.remembered(f, light.from);
+    }
+    return denoise(f, history, light, in.lobe, in.view, in.denoise);
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ struct LobeInputs {
     ScreenSource screen;                 ///< asked first; may be none
     std::span<const RaySource> sources;  ///< asked in turn after it, the most exact first: by beginLobe
     std::span<const RaySource> others;   ///< asked after these, by finishLobe; the environment answers what is left
+    MemorySource remembered;             ///< of the diffuse lobe; may be none
     gpu::Image ambientOcclusion;         ///< of ambientOcclusion(); may be none
     gpu::History lit;                    ///< the view's lit image, for adaptive sampling; may be none
     bool randomTracing = false;          ///< a source may answer the same ray differently the next time

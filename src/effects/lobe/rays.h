@@ -200,6 +200,10 @@ struct LobeLight {
     gpu::Image imageMotion;
     /// RGBA16F: variation of the light with the normal (directional_light.glsl); none unless requested.
     gpu::Image directional;
+    /// RGBA16F: light that a source knows from earlier frames, wherever the camera was: mean incoming radiance,
+    /// cosine-weighted; alpha: frames that it stands for, 0: unknown. The denoiser starts from it where it has no
+    /// history. None: there is no such source.
+    gpu::Image remembered;
     /// Pixels of the picture: how far what a pixel shows is off what its light is of. Means over frames are of its
     /// whole area, what it shows is of this frame's subpixel jitter.
     vec2 shift{0.0F};
@@ -213,6 +217,8 @@ uint32_t raysPerBatch(gpu::PassList& f, uvec2 size, uint32_t most = maxRaysPerBa
 /// Answers what it can of rays.waiting, and leaves the other rays there: a source of the chain. It binds rays.answer
 /// and rays.source, and takes the list of its misses from makeRayList.
 using RaySource = std::function<void(gpu::PassList&, Rays&)>;
+/// Makes LobeLight::remembered for these surfaces.
+using MemorySource = std::function<gpu::Image(gpu::PassList&, const RaySurfaces&)>;
 
 /// Whether some rays of the lobe may have a spread.
 bool raysSpread(uint32_t lobe, const DiffuseSettings& diffuse, const SpecularSettings& specular);

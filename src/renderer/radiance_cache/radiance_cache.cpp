@@ -15,13 +15,29 @@ constexpr float halfLife = 0.6F;
 constexpr uint32_t youth = 12;
 constexpr float keptYoung = 0.7F;
 
-// CacheBuffers::samplesToEnd, at rest and when all light has just changed. At rest most cells are fed by first hits alone, and the
-// others about once in 40 frames; with the value of unrest frames of builtin:cave took 17 % longer, for the same errors.
+// CacheBuffers::samplesToEnd, at rest and when all light has just changed. At rest most cells are fed by first hits
+// alone, and the others about once in 40 frames; with the value of unrest frames of builtin:cave took 17 % longer, for
+// the same errors.
 constexpr float samplesAtRest = 0.03F;
 constexpr float samplesInUnrest = 0.5F;
 constexpr float unrestKept = 0.85F;  // from frame to frame
 
 }  // namespace
+
+gpu::Image rememberedLight(gpu::PassList& f, const CacheBuffers& cache, const RadianceCacheSettings& settings,
+                           const RaySurfaces& from) {
+    const gpu::Image remembered = f.image("remembered_light", VK_FORMAT_R16G16B16A16_SFLOAT, from.g.depth.size);
+    f.compute("remembered_light", "remembered_light.comp")
+        .read("depth", from.g.depth)
+        .read("normal", from.g.normal)
+        .read("geometricNormal", from.g.geometricNormal)
+        .write("cacheKeys", cache.keys)
+        .write("cacheCells", cache.cells)
+        .write("remembered", remembered)
+        .params(RememberedLightParams{from.view, settings.cellSize})
+        .dispatch(remembered.size);
+    return remembered;
+}
 
 CacheBuffers RadianceCache::update(gpu::PassList& f, const RadianceCacheSettings& settings, float change) {
     if (settings.enabled == 0) {

@@ -13,6 +13,7 @@
 #define REFLET_RENDERER_RADIANCE_CACHE_H
 
 #include "base/shared.h"
+#include "effects/view.h"
 
 SHARED_BEGIN
 
@@ -50,10 +51,16 @@ struct SettleCacheParams {
     uint keptSlots;  // all bits, or none: the table starts empty
 };
 
+struct RememberedLightParams {
+    ViewParams view;  // of the surfaces
+    float cellSize;   // RadianceCacheSettings
+};
+
 SHARED_END
 
 #ifdef __cplusplus
 
+#include "effects/lobe/rays.h"
 #include "gpu/images.h"
 #include "gpu/pass_list.h"
 
@@ -67,6 +74,10 @@ struct CacheBuffers {
     float samplesToEnd = 0.0F;
     explicit operator bool() const { return bool(cells); }
 };
+
+/// What the cache knows of the light that surfaces receive: LobeLight::remembered of the diffuse lobe.
+gpu::Image rememberedLight(gpu::PassList& f, const CacheBuffers& cache, const RadianceCacheSettings& settings,
+                           const RaySurfaces& from);
 
 /// A cache: what it keeps from frame to frame. A cut need not empty it, as it does not depend on the view.
 class RadianceCache {
