@@ -52,13 +52,6 @@ void checkOutput(std::string_view option, const std::string& file, std::string_v
     }
 }
 
-std::vector<bool> loadMask(const std::string& mask, const PicturePair& names, const FloatImage& picture) {
-    if (mask.empty()) {
-        return {};
-    }
-    return mask == "hits" ? readHitMask(names, picture) : readMask(parsePictureName(mask), picture);
-}
-
 void printTable(const Difference& difference, uint64_t pixels) {
     for (const Metric& metric : comparedMetrics()) {
         fmt::print("{:<13} {}\n", metric.name, valueText(metric, metric.value(difference)));
@@ -115,6 +108,9 @@ void compare(const CompareCommand& command) {
         failUsage("{} and {}: one is linear, the other display-encoded; compare two images of the same kind",
                   command.picture, command.truth);
     }
+    if (command.paths && (FrameNames::isPattern(names[0].file) || !command.heatMap.empty() || !limits.empty())) {
+        failUsage("--paths: compares two images, without --heatmap and --fail-above");
+    }
     checkOutput("--heatmap", command.heatMap, ".png");
     checkOutput("--plot", command.plot, ".svg");
     tryOutputs({command.heatMap, command.plot}, {{names[0].file, names[1].file, command.mask}, {}});
@@ -130,6 +126,10 @@ void compare(const CompareCommand& command) {
     }
     if (!command.plot.empty()) {
         failUsage("--plot is only for sequences: name the images with a run of #, as in a_####.exr b_####.exr");
+    }
+    if (command.paths) {
+        comparePaths(command, names);
+        return;
     }
     compareOne(command, names, limits);
 }
@@ -153,12 +153,22 @@ std::string compareFooter() {
            "Sequences: every frame of B is compared with the frame of A that has its number; B may also be one image.\n"
            "Prints every frame, the means and the worst frame of each metric (bias: the largest |bias|; JSON: frames,\n"
            "mean, worst); then the same of the octaves. --fail-above holds for every frame.\n"
+           "--paths needs both files' layers direct, indirect_diffuse and indirect_specular: reflet reference writes "
+           "them,\n"
+           "reflet render with --aov direct,indirect_diffuse,indirect_specular.\n"
            "Example: reflet compare image.exr reference.exr:final --mask hits --heatmap error.png --fail-above "
            "flip=0.1\n"
            "reflet compare noisy_####.exr clean_####.exr --plot error.svg --heatmap worst.png";
 }
 
 }  // namespace
+
+std::vector<bool> loadMask(const std::string& mask, const PicturePair& names, const FloatImage& picture) {
+    if (mask.empty()) {
+        return {};
+    }
+    return mask == "hits" ? readHitMask(names, picture) : readMask(parsePictureName(mask), picture);
+}
 
 bool Limit::isBroken(const Difference& difference) const {
     const double is = metric.value(difference);
@@ -226,6 +236,11 @@ void addCompareCommand(CLI::App& app) {
     command->add_option("--plot", options->plot, "Sequences: write all metrics over the frames as a plot")
         ->type_name("F.svg");
     command->add_flag("--json", options->json, "Print JSON instead of a table");
+    command->add_flag(
+        "--paths", options->paths,
+        "Print where the light is missing or too much: for direct light, light by diffuse reflection "
+        "and light by specular reflection at the visible surface, each one's share of B's light, its part of the "
+        "bias, and its own errors");
     command
         ->add_option("--fail-above", options->failAbove,
                      "Exit with status 1 if the metric is above X (psnr: below X); may be repeated")

@@ -19,6 +19,7 @@ struct CompareCommand {
     std::vector<std::string> failAbove;
     float pixelsPerDegree = CompareOptions().pixelsPerDegree;
     bool json = false;
+    bool paths = false;
 };
 
 using PicturePair = std::array<PictureName, 2>;  ///< the image, the reference
@@ -39,6 +40,13 @@ std::string valueText(const Metric& metric, double value);
 
 /// Reads two images and compares them, with the command's mask. Throws Error.
 Comparison comparePair(const CompareCommand& command, const PicturePair& names);
+
+/// The command's mask for this image; empty without one. Throws Error.
+std::vector<bool> loadMask(const std::string& mask, const PicturePair& names, const FloatImage& picture);
+
+/// Prints where in the light's paths the difference is: by layer, as text or JSON. Throws Error, also for a file that
+/// lacks one.
+void comparePaths(const CompareCommand& command, const PicturePair& names);
 
 /// Compares every frame of a sequence, prints a table or JSON, writes heat maps and the plot. names: the first with a
 /// run of #. Throws Error, also if a frame of the reference is missing in the other sequence or a limit is broken.

@@ -253,6 +253,35 @@ TEST_F(Compare, TheHeatMapIsAPictureOfTheSameSizeDarkWhereNothingDiffers) {
     EXPECT_TRUE(refused(compare({"a.exr", "b.exr", "--heatmap", "no/h.png"}), 1, {"no/h.png", "create the folder"}));
 }
 
+// 2 of the reference's 8 are direct light; a quarter of the diffuse light is missing, and as much as half of the specular too much.
+TEST_F(Compare, PathsTellWhichLightIsMissing) {
+    writeLayers("a.exr", {{"direct", rgb(2.0F)}, {"indirect_diffuse", rgb(3.0F)}, {"indirect_specular", rgb(3.0F)}});
+    writeLayers("b.exr", {{"direct", rgb(2.0F)}, {"indirect_diffuse", rgb(4.0F)}, {"indirect_specular", rgb(2.0F)}});
+    const nlohmann::json result = json({"a.exr", "b.exr", "--paths"});
+    EXPECT_NEAR(result.at("bias"), 0.0, 1e-6);
+    ASSERT_EQ(result.at("paths").size(), 3U);
+    const auto expect = [&](size_t i, const char* layer, double share, double part, double own) {
+        const nlohmann::json& path = result.at("paths")[i];
+        EXPECT_EQ(path.at("layer"), layer);
+        EXPECT_NEAR(path.at("share"), share, 1e-6) << layer;
+        EXPECT_NEAR(path.at("part_of_bias"), part, 1e-6) << layer;
+        EXPECT_NEAR(path.at("bias"), own, 1e-6) << layer;
+    };
+    expect(0, "direct", 0.25, 0.0, 0.0);
+    expect(1, "indirect_diffuse", 0.5, -0.125, -0.25);
+    expect(2, "indirect_specular", 0.25, 0.125, 0.5);
+    const Outcome table = compare({"a.exr", "b.exr", "--paths"});
+    ASSERT_TRUE(quietSuccess(table));
+    EXPECT_NE(table.out.find("indirect_diffuse       50.0%       -12.50%    -25.0%"), std::string::npos) << table.out;
+}
+
+TEST_F(Compare, PathsNeedLayersAndTwoImages) {
+    writeLayers("a.exr", {{"", rgb(2.0F)}});
+    EXPECT_TRUE(refused(compare({"a.exr", "a.exr", "--paths"}), 1, {"has no layer 'direct'", "--aov"}));
+    EXPECT_TRUE(refused(compare({"a.exr:direct", "a.exr", "--paths"}), 2, {"expected an EXR file"}));
+    EXPECT_TRUE(refused(compare({"a.exr", "a.exr", "--paths", "--fail-above", "flip=1"}), 2, {"--paths"}));
+}
+
 TEST_F(Compare, FailAboveExitsWithOneAndNamesMetricValueAndLimit) {
     writeLayers("a.exr", {{"", rgb(1.5F)}});
     writeLayers("b.exr", {{"", rgb(1.0F)}});
