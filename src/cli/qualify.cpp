@@ -123,7 +123,9 @@ void addQualifyCommand(CLI::App& app) {
         ->type_name("S")
         ->check(CLI::Range(0.0, 86400.0))
         ->capture_default_str();
-    command->add_option("--write-grids", options->grids, "Also write the pictures, and path-traced references, as the program stores them")
+    command
+        ->add_option("--write-grids", options->grids,
+                     "Also write the pictures, and path-traced references, as the program stores them")
         ->type_name("FILE");
     command->footer(
         "The exit status is 0 only if everything passed. What is compared and allowed is in docs/devices.md.");
