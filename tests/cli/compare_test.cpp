@@ -253,7 +253,8 @@ TEST_F(Compare, TheHeatMapIsAPictureOfTheSameSizeDarkWhereNothingDiffers) {
     EXPECT_TRUE(refused(compare({"a.exr", "b.exr", "--heatmap", "no/h.png"}), 1, {"no/h.png", "create the folder"}));
 }
 
-// 2 of the reference's 8 are direct light; a quarter of the diffuse light is missing, and as much as half of the specular too much.
+// 2 of the reference's 8 are direct light; a quarter of the diffuse light is missing, and as much as half of the
+// specular too much.
 TEST_F(Compare, PathsTellWhichLightIsMissing) {
     writeLayers("a.exr", {{"direct", rgb(2.0F)}, {"indirect_diffuse", rgb(3.0F)}, {"indirect_specular", rgb(3.0F)}});
     writeLayers("b.exr", {{"direct", rgb(2.0F)}, {"indirect_diffuse", rgb(4.0F)}, {"indirect_specular", rgb(2.0F)}});

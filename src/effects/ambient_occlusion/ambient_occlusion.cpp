@@ -7,7 +7,8 @@ namespace reflet {
 
 namespace {
 
-// More do not help, as slices leave little noise: in four scenes the error after 2 and after 24 frames is within 5 % with 1, 2 or 3.
+// More do not help, as slices leave little noise: in four scenes the error after 2 and after 24 frames is within 5 %
+// with 1, 2 or 3.
 constexpr uint32_t mostBlurs = 1;
 
 SliceTracing slicesOf(const AoInputs& in) {
