@@ -22,7 +22,8 @@ SHARED_BEGIN
           "Maximum history length in frames (temporal accumulation). More: less noise, more ghosting. 0: no history, " \
           "each frame is denoised alone. At rest histories grow beyond it.")                                           \
     VALUE(uint, passes, 2, 0, 4,                                                                                       \
-          "Blur passes of eight taps each; every pass halves the radius. More: smoother, slower.")                     \
+          "Blur passes of up to eight taps; every pass halves the radius. More: smoother, slower. Ambient occlusion "  \
+          "has at most one.")                                                                                          \
     VALUE(float, radius, 24.0, 0.0, 256.0,                                                                             \
           "Maximum blur radius in pixels, used where there is no history. Shrinks with remaining noise, near hits "    \
           "and narrow lobes.")                                                                                         \
