@@ -16,7 +16,7 @@ constexpr uint32_t youth = 12;
 constexpr float keptYoung = 0.7F;
 
 // CacheBuffers::samplesToEnd, at rest and when all light has just changed. At rest most cells are fed by first hits
-// alone, and the others about once in 40 frames; with the value of unrest frames of builtin:cave took 17 % longer, for
+// alone, and the others about once in 40 frames; with the value of unrest frames of builtin:cave take 11 % longer, for
 // the same errors.
 constexpr float samplesAtRest = 0.03F;
 constexpr float samplesInUnrest = 0.5F;
