@@ -29,7 +29,7 @@ set(renderer_headers
     effects/gbuffer/gbuffer.h effects/shadow/shadow.h effects/shadow/lamp_shadow.h # what it draws
     effects/cube_map/cube_map.h effects/environment/environment_light.h effects/lobe/rays.h
     effects/lobe/generate_rays.h effects/lobe/ray_tiles.h effects/lobe/trace_screen.h
-    effects/probe/answer_probes.h
+    effects/probe/answer_probes.h effects/radiance_cache/radiance_cache.h
     effects/ambient_occlusion/ambient_occlusion.h # its own sources of rays: probes, the traced scene, glass
     effects/exposure/exposure.h effects/tonemap/tone_map_image.h) # on the host, for images of the reference
 

@@ -144,8 +144,9 @@ typedef struct RefletContextInfo {
 /** Makes a context. On failure *context is NULL. Records nothing, makes no pipelines. */
 REFLET_API RefletResult refletCreateContext(const RefletContextInfo* info, RefletContext* context);
 /**
- * The device must have finished all recorded work, and all views must have been destroyed; if some have not, that is an
- * error in `log`, and the context goes with the last of them. NULL, or a context that was destroyed: does nothing.
+ * The device must have finished all recorded work, and all views and radiance caches must have been destroyed; if some
+ * have not, that is an error in `log`, and the context goes with the last of them. NULL, or a context that was
+ * destroyed: does nothing.
  */
 REFLET_API void refletDestroyContext(RefletContext context);
 /** Returns the bytes of device memory that the context has allocated: whole blocks, for all its views. */
@@ -687,6 +688,26 @@ typedef struct RefletPlanarView {
     float tolerance; /**< metres off the plane within which surfaces belong to the mirror; 0: 0.001 */
 } RefletPlanarView;
 
+/**
+ * Diffuse light that is remembered in cells of the world, whose side is `radiance_cache.cell_size` times the distance
+ * from the camera: what refletDiffuseGi or refletAnswerRays of REFLET_LOBE_DIFFUSE have found for the surfaces that
+ * their views have seen, answers of the host among it. Pixels without a history (behind what has moved, after a cut, at
+ * the picture's edge while the camera turns) start from it instead of from noise. It fades by
+ * `radiance_cache.history` frames, faster with RefletFrameInfo::lightChange, and is forgotten where nothing has been
+ * seen for 120 frames. 11 MB of device memory.
+ *
+ * Several views of a context may share one: each sees what the others have seen. The device must then execute their
+ * calls that use it in the order in which they were recorded; those with one `frameIndex` count as one frame.
+ */
+typedef struct RefletRadianceCache_T* RefletRadianceCache;
+
+/** Creates an empty cache. */
+REFLET_API RefletResult refletCreateRadianceCache(RefletContext context, RefletRadianceCache* cache);
+/** The device must have finished all frames that used it. NULL, or one that was destroyed: does nothing. */
+REFLET_API void refletDestroyRadianceCache(RefletRadianceCache cache);
+/** Forgets all light, from the next frame on: after a change of the world that no motion describes (another level). */
+REFLET_API RefletResult refletResetRadianceCache(RefletRadianceCache cache);
+
 /** What rays find: the light of the picture, and that from beyond it. */
 typedef struct RefletIndirectLight {
     size_t structSize; /**< required */
@@ -712,6 +733,7 @@ typedef struct RefletIndirectLight {
     uint32_t planarViewCount;            /**< at most REFLET_MAX_PLANAR_VIEWS */
     uint32_t planarViewsAfterScreen;     /**< 0: reflections ask planar views before the screen; 1: for its misses */
     const RefletPlanarView* planarViews; /**< only reflections ask them */
+    RefletRadianceCache radianceCache;   /**< of the view's context; only diffuse light uses it. NULL: none */
 } RefletIndirectLight;
 
 /** One lobe of indirect light. */

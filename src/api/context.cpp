@@ -242,18 +242,18 @@ void refletDestroyContext(RefletContext context) {
     if (!taken) {  // NULL, or destroyed before
         return;
     }
-    uint32_t views = 0;
+    uint32_t owned = 0;
     {
         const std::scoped_lock lock(taken->mutex);
-        views = taken->views;
+        owned = taken->owned;
         taken->destroyed = true;
     }
-    if (views == 0) {
+    if (owned == 0) {
         waitForCalls(taken);
         return;
     }
-    const RefletResult result =
-        guarded([&] { failArgument("context: has {} views, which are to be destroyed before it", views); });
+    const RefletResult result = guarded(
+        [&] { failArgument("context: has {} views or radiance caches, which are to be destroyed before it", owned); });
     if (taken->log != nullptr) {
         taken->log(taken->logUser, result, lastError().c_str());
     }

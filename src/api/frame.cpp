@@ -250,6 +250,7 @@ LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings,
                      const LobeInputsOfHost& in) {
     const ScreenImages screen = screenForLobe(view, frame, settings, lobe, in);
     const lighting::HostLight own = hostLight(view, frame, settings, lobe, in.sources);
+    const CacheUse cache(view, frame, settings, lobe == lobeDiffuse ? in.sources.cache : nullptr);
     const LobeLight traced = lighting::traceLobe(view.recorder, &view.store->of(lobe), frame.context, settings, lobe,
                                                  frame, screen, lighting::sourcesOf(own));
     (lobe == lobeDiffuse ? frame.diffuse : frame.specular) = traced;
@@ -264,14 +265,17 @@ MissedRays recordMissedRays(RefletView_T& view, Frame& frame, const Settings& se
     frame.pending = lighting::beginLobe(view.recorder, &view.store->of(lobe), frame.context, settings, lobe, frame,
                                         screen, lighting::sourcesOf(own));
     frame.pendingLight = {own.image, own.probes, {}};
+    frame.pendingCache = lobe == lobeDiffuse ? in.sources.cache : nullptr;
     view.recorder.keep(own.image.light);
     finishCall(view, frame);
     return frame.pending->missed;
 }
 
-LobeLight recordAnswers(RefletView_T& view, Frame& frame) {
+LobeLight recordAnswers(RefletView_T& view, Frame& frame, const Settings& settings) {
     const lighting::PendingLobe pending = *frame.pending;
     frame.pending.reset();
+    const CacheUse cache(view, frame, settings, frame.pendingCache);
+    frame.pendingCache.reset();
     const LobeLight answered = lighting::finishLobe(view.recorder, &view.store->of(pending.lobe), frame.context, frame,
                                                     pending, lighting::sourcesOf(frame.pendingLight).others);
     (pending.lobe == lobeDiffuse ? frame.diffuse : frame.specular) = answered;

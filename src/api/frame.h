@@ -132,7 +132,7 @@ LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings,
 MissedRays recordMissedRays(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe,
                             const LobeInputsOfHost& in);
 /// The second half, once the host has answered them.
-LobeLight recordAnswers(RefletView_T& view, Frame& frame);
+LobeLight recordAnswers(RefletView_T& view, Frame& frame, const Settings& settings);
 LobeLight recordDenoise(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image noisy);
 /// light: none: what the lobes were given.
 lighting::Light recordComposite(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image light);

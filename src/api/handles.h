@@ -23,9 +23,9 @@
 #include <vector>
 
 struct RefletContext_T {
-    std::mutex mutex;  ///< of `views` and `destroyed`
+    std::mutex mutex;  ///< of `owned` and `destroyed`
     std::unique_ptr<reflet::gpu::Context> gpu;
-    uint32_t views = 0;      ///< that exist, and hold it
+    uint32_t owned = 0;      ///< views and radiance caches that exist, and hold it
     bool destroyed = false;  ///< by the host
     void (*log)(void* user, RefletResult result, const char* text) = nullptr;
     void* logUser = nullptr;
@@ -33,6 +33,15 @@ struct RefletContext_T {
 
 struct RefletSettings_T {
     reflet::api::Settings values;
+};
+
+struct RefletRadianceCache_T {
+    std::shared_ptr<RefletContext_T> keeps;  ///< the owner, unless this is a stand-in
+    std::mutex mutex;                        ///< of all below, while a lobe is recorded
+    reflet::RadianceCache table;
+    reflet::CacheBuffers current;             ///< of the frame that was begun last
+    std::optional<uint32_t> frame;            ///< RefletFrameInfo::frameIndex of that one; none: there was none
+    const RefletView_T* settledBy = nullptr;  ///< the view that began it; only to be compared
 };
 
 namespace reflet::api {
@@ -112,11 +121,12 @@ struct Frame : lighting::Surfaces {
     std::optional<DisplayTarget> shownOn;  ///< of the last tone map
     std::optional<LobeLight> diffuse;
     std::optional<LobeLight> specular;
-    std::optional<lighting::PendingLobe> pending;  ///< whose rays wait for the host's answers
-    lighting::HostLight pendingLight;              ///< of the host's for these rays, without mirrors
-    uint32_t probes = 0;                           ///< given to the last lobe
-    uint32_t planarViews = 0;                      ///< given to the last lobe
-    bool hasFallback = false;                      ///< RefletIndirectLight::specularFallback or irradiance was given
+    std::optional<lighting::PendingLobe> pending;         ///< whose rays wait for the host's answers
+    lighting::HostLight pendingLight;                     ///< of the host's for these rays, without mirrors
+    std::shared_ptr<RefletRadianceCache_T> pendingCache;  ///< that their light is for; may be none
+    uint32_t probes = 0;                                  ///< given to the last lobe
+    uint32_t planarViews = 0;                             ///< given to the last lobe
+    bool hasFallback = false;  ///< RefletIndirectLight::specularFallback or irradiance was given
     float elapsed = 0.0F;
     reflet::lighting::Change change;
     uvec2 size{0};                  ///< RefletFrameInfo::renderSize, or the view's

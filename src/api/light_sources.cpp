@@ -275,7 +275,8 @@ RefletIndirectLight preparedLight(const RefletPrepareInfo& info) {
     return light;
 }
 
-SourceInputs sourceInputs(const Frame& frame, const RefletIndirectLight& light, HostImages& host) {
+SourceInputs sourceInputs(const RefletView_T& view, const Frame& frame, const RefletIndirectLight& light,
+                          HostImages& host) {
     checkCounts(light);
     SourceInputs in;
     in.specular = lightImage(frame, light.specularFallback, "RefletIndirectLight.specularFallback", host);
@@ -283,6 +284,7 @@ SourceInputs sourceInputs(const Frame& frame, const RefletIndirectLight& light, 
     in.irradianceScale = irradianceScaleOf(light.irradianceKind, "RefletIndirectLight.irradianceKind");
     addProbes(in, light, host);
     addPlanarViews(in, light, host);
+    in.cache = light.radianceCache != nullptr ? heldCache(light.radianceCache, view) : nullptr;
     return in;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "api/frame.h"
+#include "api/radiance_cache.h"
 #include "lighting/host_sources.h"
 
 #include <cstddef>
@@ -18,12 +19,14 @@ struct SourceInputs {
     float irradianceScale = 1.0F;
     std::vector<lighting::HostPlanarView> planar;
     bool planarAfterScreen = false;
+    std::shared_ptr<RefletRadianceCache_T> cache;  ///< may be none
 
     [[nodiscard]] bool any() const { return !probes.empty() || specular || irradiance || !planar.empty(); }
 };
 
 /// Throws Failure for what cannot be meant.
-SourceInputs sourceInputs(const Frame& frame, const RefletIndirectLight& light, HostImages& host);
+SourceInputs sourceInputs(const RefletView_T& view, const Frame& frame, const RefletIndirectLight& light,
+                          HostImages& host);
 
 /// The light that refletPrepare is told of, and a probe of a light, as this library knows the structs. Throw Failure
 /// for wrong counts and sizes.

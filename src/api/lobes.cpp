@@ -64,7 +64,8 @@ struct LightInputs {
     [[nodiscard]] LobeInputsOfHost all() const { return {light, environment, sources}; }
 };
 
-LightInputs lightInputs(const Frame& frame, const RefletIndirectLight* light, HostImages& host) {
+LightInputs lightInputs(const RefletView_T& view, const Frame& frame, const RefletIndirectLight* light,
+                        HostImages& host) {
     const RefletIndirectLight given =
         adopted(light, "RefletIndirectLight", offsetof(RefletIndirectLight, specularFallback));
     if (given.light.image == VK_NULL_HANDLE) {
@@ -76,7 +77,7 @@ LightInputs lightInputs(const Frame& frame, const RefletIndirectLight* light, Ho
                                          : RefletEnvironment{};
     checkEnvironment(around, frame.preExposure);
     const LightInputs in{host.add(given.light, frame.size), environmentInputs(around, host),
-                         sourceInputs(frame, given, host)};
+                         sourceInputs(view, frame, given, host)};
     host.acquire();
     return in;
 }
@@ -97,7 +98,7 @@ RefletResult traceLobeOf(RefletView view, RefletSettings settings, const RefletI
         checkLobeIsNew(frame, kind);
         const RefletLobe asked = adopted<RefletLobe>(lobe, "lobe");
         HostImages host(*view);
-        const LightInputs in = lightInputs(frame, light, host);
+        const LightInputs in = lightInputs(*view, frame, light, host);
         const RefletLobe out = lobeOf(recordLobe(*view, frame, values, kind, in.all()), asked.structSize);
         std::memcpy(lobe, &out, out.structSize);
     });
@@ -201,7 +202,7 @@ RefletResult refletMissedRays(RefletView view, RefletSettings settings, RefletLo
         checkLobeIsNew(frame, lobe);
         const RefletMissedRays asked = adopted<RefletMissedRays>(missed, "RefletMissedRays");
         HostImages host(*view);
-        const LightInputs in = lightInputs(frame, light, host);
+        const LightInputs in = lightInputs(*view, frame, light, host);
         const MissedRays rays = recordMissedRays(*view, frame, values, lobe, in.all());
         RefletMissedRays out{};
         out.structSize = asked.structSize;
@@ -214,7 +215,7 @@ RefletResult refletMissedRays(RefletView view, RefletSettings settings, RefletLo
 
 RefletResult refletAnswerRays(RefletView view, RefletSettings settings, RefletLobeKind kind,
                               const RefletRayAnswers* answers, RefletLobe* lobe) {
-    return inFrame(view, settings, [&](Frame& frame, const Settings&) {
+    return inFrame(view, settings, [&](Frame& frame, const Settings& values) {
         checkPending(frame, lobeOfKind(kind));
         const RefletRayAnswers given = adopted(answers, "RefletRayAnswers");
         const RefletLobe asked = adopted<RefletLobe>(lobe, "lobe");
@@ -222,7 +223,7 @@ RefletResult refletAnswerRays(RefletView view, RefletSettings settings, RefletLo
             failArgument("RefletRayAnswers.stages: is 0, and access is not; name the stages that wrote the answers");
         }
         acquireAnswers(*view, given, frame.pending->missed.answers);
-        const RefletLobe out = lobeOf(recordAnswers(*view, frame), asked.structSize);
+        const RefletLobe out = lobeOf(recordAnswers(*view, frame, values), asked.structSize);
         std::memcpy(lobe, &out, out.structSize);
     });
 }

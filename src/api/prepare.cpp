@@ -132,6 +132,7 @@ SourceInputs preparedSources(const RefletView_T& view, const RefletPrepareInfo& 
     in.specular = given(light.specularFallback) ? standIns.make(view.renderSize) : gpu::Image{};
     in.irradiance = given(light.irradiance) ? standIns.make(view.renderSize) : gpu::Image{};
     in.planarAfterScreen = light.planarViewsAfterScreen != 0;
+    in.cache = light.radianceCache != nullptr ? std::make_shared<RefletRadianceCache_T>() : nullptr;
     in.planar.resize(light.planarViewCount);
     for (lighting::HostPlanarView& planar : in.planar) {
         planar.color = planar.depth = standIns.make(view.renderSize);
@@ -171,7 +172,7 @@ void prepareLobes(RefletView_T& view, Frame& frame, const Settings& settings, co
             recordDenoise(view, frame, settings, lobe, color);
         } else if (from == LobeFrom::answeredRays) {
             recordMissedRays(view, frame, settings, lobe, in);
-            recordAnswers(view, frame);
+            recordAnswers(view, frame, settings);
         }
     }
 }

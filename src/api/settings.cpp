@@ -29,6 +29,7 @@ SettingTable makeTable() {
     table.add<SpecularSettings>("specular", offsetIn<Settings>(&Settings::specular));
     table.add<AoSettings>("ao", offsetIn<Settings>(&Settings::ao));
     table.add<DenoiseSettings>("denoise", offsetIn<Settings>(&Settings::denoise));
+    table.add<RadianceCacheSettings>("radiance_cache", offsetIn<Settings>(&Settings::radianceCache));
     table.add<TemporalSettings>("temporal", offsetIn<Settings>(&Settings::temporal));
     table.add<DofSettings>("dof", offsetIn<Settings>(&Settings::dof));
     table.add<MotionBlurSettings>("motion_blur", offsetIn<Settings>(&Settings::motionBlur));
@@ -37,8 +38,8 @@ SettingTable makeTable() {
 }
 
 // What a host decides by what it draws and calls.
-constexpr std::array<std::string_view, 4> ofTheHost{"shadow.resolution", "shadow.extent", "temporal.enabled",
-                                                    "temporal.scale"};
+constexpr std::array<std::string_view, 5> ofTheHost{"radiance_cache.enabled", "shadow.resolution", "shadow.extent",
+                                                    "temporal.enabled", "temporal.scale"};
 
 std::string_view presetName(const EmbeddedFile& file) {
     return file.name.substr(0, file.name.find('.'));

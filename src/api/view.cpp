@@ -217,7 +217,7 @@ RefletResult refletCreateView(RefletContext context, const RefletViewInfo* info,
         made->store = std::make_unique<ViewStore>();
         made->keeps = owner;
         Live<RefletView_T>::add(made);
-        ++context->views;
+        ++context->owned;
         *view = made.get();
     });
 }
@@ -236,7 +236,7 @@ void refletDestroyView(RefletView view) {
     const std::shared_ptr<RefletContext_T> context = taken->keeps;
     taken.reset();
     const std::scoped_lock lock(context->mutex);
-    --context->views;
+    --context->owned;
 }
 
 RefletResult refletResizeView(RefletView view, uint32_t width, uint32_t height) {

@@ -82,7 +82,7 @@ LobeInputs inputsOf(const ViewContext& in, const LightingSettings& settings, uin
             .screen = first,
             .sources = {},
             .others = {},
-            .remembered = {},
+            .cache = lobe == lobeDiffuse ? in.cache : CacheBuffers{},
             .ambientOcclusion = surfaces.ambientOcclusion,
             .followsImages = settings.temporal.enabled != 0 && settings.temporal.reflections != 0,
             .countSteps = settings.traceScreen.countSteps != 0,
@@ -118,7 +118,6 @@ LobeLight traceOnce(gpu::PassList& f, LobeStore* history, const ViewContext& in,
     inputs.sources = order;
     inputs.others = sources.others;
     inputs.certainOthers = sources.certainOthers;
-    inputs.remembered = lobe == lobeDiffuse ? sources.remembered : nullptr;
     inputs.lit = screen.lit;
     inputs.randomTracing = tracesAtRandom(settings, sources);
     return reflet::traceLobe(f, history, inputs);

@@ -17,7 +17,6 @@ struct RaySources {
     std::span<const PlanarView> mirrors;  ///< planar reflections; only reflection rays ask them
     bool mirrorsFirst = true;             ///< before the screen, not after it
     std::vector<RaySource> others;        ///< after both, the most exact first
-    MemorySource remembered;              ///< of diffuse light; may be none
     size_t certainOthers = 0;             ///< how many of these, at their start, find the actual hit
     bool random = false;                  ///< some of these may answer the same ray differently the next time
     bool readScreen = false;              ///< some of these read the light of the screen at their hits

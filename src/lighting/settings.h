@@ -9,6 +9,7 @@
 #include "effects/lobe/rays.h"
 #include "effects/lobe/trace_screen.h"
 #include "effects/motion_blur/motion_blur.h"
+#include "effects/radiance_cache/radiance_cache.h"
 #include "effects/shadow/shadow.h"
 #include "effects/temporal/temporal.h"
 #include "effects/tonemap/tonemap.h"
@@ -24,6 +25,7 @@ struct LightingSettings {
     DiffuseSettings diffuse;
     SpecularSettings specular;
     DenoiseSettings denoise;
+    RadianceCacheSettings radianceCache;
     TemporalSettings temporal;
     DofSettings dof;
     MotionBlurSettings motionBlur;

@@ -5,6 +5,7 @@
 #include "effects/environment/environment_light.h"
 #include "effects/gbuffer/gbuffer.h"
 #include "effects/gbuffer/kept_depth.h"
+#include "effects/radiance_cache/radiance_cache.h"
 #include "effects/view.h"
 #include "gpu/pass_list.h"
 
@@ -20,6 +21,7 @@ struct ViewContext {
     EnvironmentLight environment;
     gpu::Image ggxTable;        ///< of ggxTable
     gpu::BufferView blueNoise;  ///< noise/blue_noise.h
+    CacheBuffers cache{};       ///< for the diffuse lobe; may be none
     bool lambertOnly = false;   ///< every material is Lambert diffuse (MaterialsSettings)
     bool unlit = false;         ///< nothing reflects light: no rays are traced
     bool composes = true;       ///< each frame's light is composited, for the next one's rays to read

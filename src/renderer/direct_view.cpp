@@ -119,6 +119,7 @@ lighting::ViewContext contextOf(const ViewInputs& in, const Settings& settings) 
             .environment = in.environment,
             .ggxTable = in.ggxTable,
             .blueNoise = in.blueNoise,
+            .cache = in.cache,
             .lambertOnly = settings.materials.lambertOnly != 0,
             .unlit = in.draws.unlit,
             .emitterLamps = anyEmitters(in.lamps),

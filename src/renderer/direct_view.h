@@ -30,7 +30,7 @@ struct ViewInputs {
     const TracedScene* traced = nullptr;   ///< BVH; only if the settings trace the scene (tracesScene)
     double time = 0.0;                     ///< of the scene's animations [s]
     ProbeMaps probes{};                    ///< probes for rays; may be empty
-    CacheBuffers cache{};                  ///< for rays through the scene; may be none
+    CacheBuffers cache{};                  ///< may be none
     vec4 clipPlane{0.0F};                  ///< as for drawGBuffer; zero: none
     bool forProbe = false;                 ///< as in ViewContext
     std::optional<CameraMedium> medium{};  ///< of cameraMedium; only of the camera itself, not of sub-views

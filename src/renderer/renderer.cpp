@@ -238,6 +238,7 @@ void Renderer::restart(uint32_t frameNumber) {
     asked_.reset();
     lightChange_.forget();
     preExposure_.forget();
+    cache_.forget();
     pose_.reset();
     probes_.restart(!source_.nodes.empty());
 }
@@ -318,8 +319,9 @@ FrameImages Renderer::render(const View& asked, uvec2 size, uint32_t seed, const
         cameraBefore(params, size, settings, moved && pose_->time < posedBefore && asked.time > previousTime_)};
     previousTime_ = asked.time;
     inputs.probes = probes_.update(frame_, inputs, probesOf(view, settings.probes), settings);
-    if (traced != nullptr) {
-        inputs.cache = cache_.update(frame_, settings.radianceCache, std::max(lightChange, moved ? movedChange : 0.0F));
+    if (settings.radianceCache.enabled != 0) {
+        inputs.cache = cache_.update(frame_, settings.radianceCache, std::max(lightChange, moved ? movedChange : 0.0F),
+                                     params.preExposure);
     }
     if (stop_) {
         frame_.runPassByPass(stop_);

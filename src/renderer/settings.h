@@ -11,7 +11,6 @@
 #include "renderer/draw_gbuffer/draw_gbuffer.h"
 #include "renderer/glass/glass.h"
 #include "renderer/live/live_picture.h"
-#include "renderer/radiance_cache/radiance_cache.h"
 #include "renderer/trace_scene/trace_scene.h"
 
 #include <nlohmann/json_fwd.hpp>
@@ -28,7 +27,6 @@ struct Settings : LightingSettings {
     DepthSettings depth;
     DirectSettings direct;
     TraceSceneSettings traceScene;
-    RadianceCacheSettings radianceCache;
     ProbesSettings probes;
     PlanarSettings planar;
     LiveSettings live;

@@ -2,7 +2,6 @@
 #include "renderer/trace_lobe.h"
 
 #include "effects/probe/answer_probes.h"
-#include "renderer/radiance_cache/radiance_cache.h"
 #include "renderer/scene_source.h"
 
 #include <utility>
@@ -17,18 +16,12 @@ lighting::RaySources sourcesOf(const ViewInputs& in, const Settings& settings, c
     lighting::RaySources sources{.mirrors = seen.mirrors,
                                  .mirrorsFirst = settings.planar.beforeScreen != 0,
                                  .others = {},
-                                 .remembered = {},
                                  .random = scene,
                                  .readScreen = scene && settings.traceScene.reuseScreen != 0};
     if (scene && in.traced != nullptr) {
         sources.others.emplace_back(
             [&](gpu::PassList& f, Rays& rays) { traceSceneFallback(f, rays, in, settings, seen.images, seen.screen); });
         sources.certainOthers = 1;
-        if (in.cache) {
-            sources.remembered = [&](gpu::PassList& f, const RaySurfaces& from) {
-                return rememberedLight(f, in.cache, settings.radianceCache, from);
-            };
-        }
     }
     if (in.probes) {
         sources.others.emplace_back([&](gpu::PassList& f, Rays& rays) { answerProbes(f, rays, in.probes); });

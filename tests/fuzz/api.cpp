@@ -7,18 +7,50 @@ namespace reflet::fuzz {
 
 namespace {
 
-constexpr std::array<const char*, apiCalls> names{
-    "refletCreateContext",  "refletDestroyContext",   "refletContextMemory",    "refletPipelineCacheData",
-    "refletCreateSettings", "refletDestroySettings",  "refletApplyPreset",      "refletSetSetting",
-    "refletGetSetting",     "refletSetSettingNumber", "refletGetSettingNumber", "refletSettingInfo",
-    "refletCreateView",     "refletDestroyView",      "refletResizeView",       "refletSetOutputSize",
-    "refletResetView",      "refletFinishView",       "refletViewMemory",       "refletUseCommandBuffer",
-    "refletBeginFrame",     "refletEndFrame",         "refletSunShadow",        "refletLampShadows",
-    "refletContactShadows", "refletAmbientOcclusion", "refletDiffuseGi",        "refletReflections",
-    "refletDenoise",        "refletComposite",        "refletTemporal",         "refletDepthOfField",
-    "refletMotionBlur",     "refletToneMap",          "refletToneMapTo",        "refletMissedRays",
-    "refletAnswerRays",     "refletPrepare",          "refletDescribe",         "refletPassTimes",
-    "refletFindImage"};
+constexpr std::array<const char*, apiCalls> names{"refletCreateContext",
+                                                  "refletDestroyContext",
+                                                  "refletContextMemory",
+                                                  "refletPipelineCacheData",
+                                                  "refletCreateSettings",
+                                                  "refletDestroySettings",
+                                                  "refletApplyPreset",
+                                                  "refletSetSetting",
+                                                  "refletGetSetting",
+                                                  "refletSetSettingNumber",
+                                                  "refletGetSettingNumber",
+                                                  "refletSettingInfo",
+                                                  "refletCreateView",
+                                                  "refletDestroyView",
+                                                  "refletResizeView",
+                                                  "refletSetOutputSize",
+                                                  "refletResetView",
+                                                  "refletFinishView",
+                                                  "refletViewMemory",
+                                                  "refletUseCommandBuffer",
+                                                  "refletBeginFrame",
+                                                  "refletEndFrame",
+                                                  "refletSunShadow",
+                                                  "refletLampShadows",
+                                                  "refletContactShadows",
+                                                  "refletAmbientOcclusion",
+                                                  "refletDiffuseGi",
+                                                  "refletReflections",
+                                                  "refletDenoise",
+                                                  "refletComposite",
+                                                  "refletTemporal",
+                                                  "refletDepthOfField",
+                                                  "refletMotionBlur",
+                                                  "refletToneMap",
+                                                  "refletToneMapTo",
+                                                  "refletMissedRays",
+                                                  "refletAnswerRays",
+                                                  "refletPrepare",
+                                                  "refletDescribe",
+                                                  "refletPassTimes",
+                                                  "refletFindImage",
+                                                  "refletCreateRadianceCache",
+                                                  "refletDestroyRadianceCache",
+                                                  "refletResetRadianceCache"};
 
 }  // namespace
 
@@ -111,6 +143,19 @@ RefletSettings ApiMachine::settingsOf(const SettingsSlot& slot) {
     return slot.settings;
 }
 
+RefletRadianceCache ApiMachine::cacheOf(const CacheSlot& slot) {
+    const uint8_t which = bytes_.byte();
+    if (which >= 254) {
+        return which == 254 ? nullptr : reinterpret_cast<RefletRadianceCache>(settings_[0].settings);
+    }
+    for (const CacheSlot& other : caches_) {
+        if (!slot.alive && other.alive && other.cache == slot.cache) {
+            return nullptr;
+        }
+    }
+    return slot.cache;
+}
+
 void ApiMachine::chooseDevice() {
     const uint8_t kind = bytes_.byte();
     wild_ = (kind & 3U) == 3;
@@ -168,7 +213,7 @@ void ApiMachine::manage() {
     ViewSlot& view = anyView();
     ContextSlot& context = contexts_[bytes_.below(contexts_.size())];
     SettingsSlot& settings = settings_[bytes_.below(settings_.size())];
-    switch (bytes_.below(16)) {
+    switch (bytes_.below(18)) {
         case 0:
             return createContext(context);
         case 1:
@@ -195,6 +240,9 @@ void ApiMachine::manage() {
             return changeView(view);
         case 14:
             return askView(view);
+        case 15:
+        case 16:
+            return changeCache(caches_[bytes_.below(caches_.size())]);
         default:
             return bytes_.chance(64) ? prepare(view) : askView(view);
     }
@@ -210,6 +258,11 @@ void ApiMachine::endAll() {
         if (view.alive) {
             finishFrames(view, 0);
             refletDestroyView(view.view);
+        }
+    }
+    for (const CacheSlot& cache : caches_) {
+        if (cache.alive) {
+            refletDestroyRadianceCache(cache.cache);
         }
     }
     for (const ContextSlot& context : contexts_) {

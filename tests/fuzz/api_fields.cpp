@@ -54,7 +54,8 @@ REFLET_FIELDS(RefletPlanarView, F(structSize, size), F(color, image), F(depth, i
               F(plane, reals), F(tolerance, reals))
 REFLET_FIELDS(RefletIndirectLight, F(structSize, size), F(light, image), F(environment, pointer),
               F(specularFallback, image), F(irradiance, image), F(irradianceKind, value), F(probeCount, count),
-              F(probes, pointer), F(planarViewCount, count), F(planarViewsAfterScreen, words), F(planarViews, pointer))
+              F(probes, pointer), F(planarViewCount, count), F(planarViewsAfterScreen, words), F(planarViews, pointer),
+              F(radianceCache, pointer))
 REFLET_FIELDS(RefletLens, F(structSize, size), F(apertureRadius, reals), F(focusDistance, reals), F(blades, words),
               F(bladeRotation, reals))
 REFLET_FIELDS(RefletToneMapInfo, F(structSize, size), F(color, pointer), F(autoExposure, words), F(exposure, pointer),

@@ -192,6 +192,9 @@ void ApiMachine::spoilLight(stub::HostFrame& host) {
     host.light.probeCount = (kind & 32U) != 0 ? 2 : 0;
     host.light.planarViewCount = (kind & 64U) != 0 ? 1 : 0;
     host.light.planarViewsAfterScreen = kind >> 7U;
+    if ((kind & 8U) != 0) {
+        host.light.radianceCache = cacheOf(caches_[kind >> 7U]);
+    }
     spoilSome(host.light);
     spoilSome(host.environment);
     if (host.light.probeCount == 2) {

@@ -53,8 +53,11 @@ enum class ApiCall : uint8_t {
     describe,
     passTimes,
     findImage,
+    createCache,
+    destroyCache,
+    resetCache,
 };
-constexpr size_t apiCalls = 41;
+constexpr size_t apiCalls = 44;
 
 /// Of all sequences so far.
 struct ApiCounts {
@@ -99,6 +102,11 @@ private:
         bool alive = false;
     };
 
+    struct CacheSlot {
+        RefletRadianceCache cache = nullptr;
+        bool alive = false;
+    };
+
     void chooseDevice();
     void step();
     void manage();
@@ -129,6 +137,8 @@ private:
     void destroySettings(SettingsSlot& slot);
     void changeSettings(const SettingsSlot& slot);
     void askSettings(const SettingsSlot& slot);
+    RefletRadianceCache cacheOf(const CacheSlot& slot);
+    void changeCache(CacheSlot& slot);
     void createView(ViewSlot& slot);
     void destroyView(ViewSlot& slot);
     void changeView(ViewSlot& slot);
@@ -152,6 +162,7 @@ private:
     std::array<ContextSlot, 2> contexts_{};
     std::array<ViewSlot, 4> views_{};
     std::array<SettingsSlot, 2> settings_{};
+    std::array<CacheSlot, 2> caches_{};
 };
 
 template <class T>

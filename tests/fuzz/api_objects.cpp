@@ -151,6 +151,27 @@ void ApiMachine::askSettings(const SettingsSlot& slot) {
     note(ApiCall::getSetting, told ? REFLET_SUCCESS : REFLET_ERROR_INVALID_ARGUMENT);
 }
 
+void ApiMachine::changeCache(CacheSlot& slot) {
+    if (!slot.alive) {
+        RefletContext context = contextOf(contexts_[bytes_.chance(40) ? 1 : 0]);
+        RefletRadianceCache made = nullptr;
+        slot.alive = note(ApiCall::createCache, refletCreateRadianceCache(context, orNull(&made))) == REFLET_SUCCESS;
+        slot.cache = slot.alive ? made : slot.cache;
+        return;
+    }
+    RefletRadianceCache handle = cacheOf(slot);
+    if (bytes_.chance(128)) {
+        note(ApiCall::resetCache, refletResetRadianceCache(handle));
+        return;
+    }
+    for (ViewSlot& view : views_) {  // the device must not use it any more
+        finishFrames(view, 0);
+    }
+    refletDestroyRadianceCache(handle);
+    note(ApiCall::destroyCache, REFLET_SUCCESS);
+    slot.alive = slot.alive && handle != slot.cache;
+}
+
 void ApiMachine::createView(ViewSlot& slot) {
     if (slot.alive) {
         return;

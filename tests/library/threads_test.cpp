@@ -36,6 +36,7 @@ struct SharedView {
 
 struct Shared {
     std::array<RefletContext, contextCount> contexts{};
+    std::array<RefletRadianceCache, contextCount> caches{};  ///< of the views of a context
     std::array<SharedView, viewCount> views;
     std::atomic<uint64_t> frames = 0;
     std::atomic<uint64_t> queries = 0;
@@ -86,7 +87,7 @@ public:
             case 3:
                 return prepare(view);
             default:
-                record(view);
+                record(view, i);
         }
     }
 
@@ -100,7 +101,10 @@ private:
         std::array<RefletPassTime, 8> times{};
         uint32_t count = times.size();
         RefletResult result = REFLET_SUCCESS;
-        switch (random_() % 7) {
+        switch (random_() % 8) {
+            case 7:
+                result = refletResetRadianceCache(shared_.caches.at(i % contextCount));
+                break;
             case 0:
                 result = refletViewMemory(view, &bytes);
                 break;
@@ -133,9 +137,10 @@ private:
         EXPECT_REFLET(refletPrepare(view.view, settings_, &host.prepare, 2, &remaining));
     }
 
-    void record(SharedView& shared) {
+    void record(SharedView& shared, uint32_t i) {
         RefletView view = shared.view;
         stub::HostFrame host(shared.width, 40);
+        host.light.radianceCache = shared_.caches.at(i % contextCount);
         host.look(0.01F * static_cast<float>(shared.index));
         shared.finish(framesInFlight - 1);
         shared.commands.push_back(stub::beginCommands());
@@ -183,9 +188,10 @@ TEST(Threads, RandomCallsOnSharedViews) {
     constexpr uint32_t leastSteps = 40;
     stub::setDevice({});
     Shared shared;
-    for (RefletContext& context : shared.contexts) {
+    for (uint32_t i = 0; i < contextCount; ++i) {
         const RefletContextInfo info = stub::contextInfo();
-        EXPECT_REFLET(refletCreateContext(&info, &context));
+        EXPECT_REFLET(refletCreateContext(&info, &shared.contexts.at(i)));
+        EXPECT_REFLET(refletCreateRadianceCache(shared.contexts.at(i), &shared.caches.at(i)));
     }
     for (uint32_t i = 0; i < viewCount; ++i) {
         shared.make(i);
@@ -205,6 +211,9 @@ TEST(Threads, RandomCallsOnSharedViews) {
     for (SharedView& view : shared.views) {
         view.finish(0);
         refletDestroyView(view.view);
+    }
+    for (RefletRadianceCache cache : shared.caches) {
+        refletDestroyRadianceCache(cache);
     }
     for (RefletContext context : shared.contexts) {
         refletDestroyContext(context);

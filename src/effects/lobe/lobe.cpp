@@ -155,11 +155,15 @@ void traceBatchAtOnce(gpu::PassList& f, const LobeInputs& in, const LobePlan& pl
 
 LobeLight denoised(gpu::PassList& f, LobeStore* own, const LobeInputs& in, LobeLight light) {
     DenoiseStore* history = own != nullptr ? &own->denoise : nullptr;
+    const bool remembers = in.cache && history != nullptr;
+    if (remembers) {
+        feedCache(f, in.cache, light);
+    }
     if (in.denoise.enabled == 0) {
         return light;
     }
-    if (in.remembered && history != nullptr && in.denoise.history > 0) {
-        light.remembered = in.remembered(f, light.from);
+    if (remembers && in.denoise.history > 0) {
+        light.remembered = rememberedLight(f, in.cache, light.from);
     }
     return denoise(f, history, light, in.lobe, in.view, in.denoise);
 }

@@ -4,6 +4,7 @@
 #include "effects/denoise/denoise.h"
 #include "effects/lobe/generate_rays.h"
 #include "effects/lobe/rays.h"
+#include "effects/radiance_cache/radiance_cache.h"
 
 #include <span>
 
@@ -24,7 +25,7 @@ struct LobeInputs {
     ScreenSource screen;                 ///< asked first; may be none
     std::span<const RaySource> sources;  ///< asked in turn after it, the most exact first: by beginLobe
     std::span<const RaySource> others;   ///< asked after these, by finishLobe; the environment answers what is left
-    MemorySource remembered;             ///< of the diffuse lobe; may be none
+    CacheBuffers cache;                  ///< of the diffuse lobe; may be none
     gpu::Image ambientOcclusion;         ///< of ambientOcclusion(); may be none
     gpu::History lit;                    ///< the view's lit image, for adaptive sampling; may be none
     bool randomTracing = false;          ///< a source may answer the same ray differently the next time

@@ -217,8 +217,6 @@ uint32_t raysPerBatch(gpu::PassList& f, uvec2 size, uint32_t most = maxRaysPerBa
 /// Answers what it can of rays.waiting, and leaves the other rays there: a source of the chain. It binds rays.answer
 /// and rays.source, and takes the list of its misses from makeRayList.
 using RaySource = std::function<void(gpu::PassList&, Rays&)>;
-/// Makes LobeLight::remembered for these surfaces.
-using MemorySource = std::function<gpu::Image(gpu::PassList&, const RaySurfaces&)>;
 
 /// Whether some rays of the lobe may have a spread.
 bool raysSpread(uint32_t lobe, const DiffuseSettings& diffuse, const SpecularSettings& specular);

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double framesPerSecond = 24.0;
 constexpr uint32_t framesToStop = 5;
+constexpr uint32_t framesToReturn = 7;
 
 vec3 turnedAboutY(const vec3& v, float degrees) {
     return vec3(glm::rotate(mat4(1.0F), glm::radians(degrees), vec3(0, 1, 0)) * vec4(v, 0.0F));
@@ -76,13 +77,18 @@ View cut(const View& first, uint32_t frame) {
     return pan(first, frame > 0 ? 150.0F : 0.0F);
 }
 
+// Cuts to what is behind the camera, and back.
+View lookBack(const View& first, uint32_t frame) {
+    return pan(first, frame > 0 && frame < framesToReturn ? 150.0F : 0.0F);
+}
+
 View stop(const View& first, uint32_t frame) {
     return panBy5(first, std::min(frame, framesToStop - 1));
 }
 
 using Lag = MotionCase::Lag;
 
-constexpr std::array<MotionCase, 16> cases{{
+constexpr std::array<MotionCase, 17> cases{{
     {"pan-5", "the camera turns by 5 degrees a frame", "motion-room", 12, panBy5, 2.0},
     {"pan-15", "the camera turns by 15 degrees a frame", "motion-room", 12, panBy15, 2.0},
     {"rods", "the camera passes thin rods: disocclusion", "motion-rods", 12, strafe},
@@ -99,6 +105,8 @@ constexpr std::array<MotionCase, 16> cases{{
      12, play},
     {"blended-pan", "the camera passes both", "motion-blended", 12, strafe},
     {"cut", "the camera looks elsewhere from one frame to the next", "motion-room", 12, cut, 1.5, Lag::rest},
+    {"look-back", "the camera looks elsewhere for six frames, and back", "motion-room", 18, lookBack, 1.5, Lag::rest,
+     framesToReturn},
     {"stop", "the camera turns by 5 degrees a frame and stops", "motion-room", 16, stop, 1.5, Lag::rest, framesToStop},
 }};
 

@@ -2,7 +2,7 @@
 #ifndef REFLET_CACHED_LIGHT_GLSL
 #define REFLET_CACHED_LIGHT_GLSL
 
-#include "renderer/radiance_cache/radiance_cache.glsl"
+#include "effects/radiance_cache/radiance_cache.glsl"
 
 struct CachedLight {
     vec3 radiance;  // incoming, cosine-weighted

@@ -6,7 +6,7 @@
 #include "base/shared.h"
 #include "effects/shadow/shadow.h"
 #include "effects/view.h"
-#include "renderer/radiance_cache/radiance_cache.h"
+#include "effects/radiance_cache/radiance_cache.h"
 
 SHARED_BEGIN
 

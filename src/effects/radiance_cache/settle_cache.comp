@@ -2,7 +2,7 @@
 // more.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
-#include "renderer/radiance_cache/radiance_cache.glsl"
+#include "effects/radiance_cache/radiance_cache.glsl"
 
 layout(local_size_x = 64) in;
 layout(scalar) uniform ParamsBlock {
@@ -35,5 +35,5 @@ void main() {
         c.mean = (c.mean * kept + sum) / (kept + samples);
         kept += samples;
     }
-    cacheCells.items[slot] = CacheCell(0u, 0u, 0u, 0u, c.mean, kept, idle);
+    cacheCells.items[slot] = CacheCell(0u, 0u, 0u, 0u, c.mean * params.unitChange, kept, idle);
 }

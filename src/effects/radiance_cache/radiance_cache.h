@@ -1,6 +1,7 @@
 // Radiance cache: the light that reaches surfaces after at least one bounce, remembered in cells of the world, on
-// screen or off. Paths of scene rays end in it, so that they bring all bounces; what they find on their way fills it.
-// Shared by C++ and GLSL.
+// screen or off. What the diffuse lobe of visible surfaces finds fills it, and what paths of scene rays find on their
+// way. Pixels without a history start from it, and paths end in it, so that they bring all bounces. Shared by C++ and
+// GLSL.
 //
 // A cell is a cube of the world and a range of normals, in a hash table of fixed size. It holds the mean incoming
 // radiance of its surfaces, cosine-weighted: the irradiance over pi, which diffuse surfaces multiply by their albedo.
@@ -9,8 +10,8 @@
 // P. Gautron: Real-Time Ray-Traced Ambient Occlusion of Complex Scenes using Spatial Hashing (SIGGRAPH 2020 talk), for
 // the table; T. Müller et al.: Real-time Neural Radiance Caching for Path Tracing (2021), for paths that end in what
 // they have fed. docs/methods/radiance-cache.md.
-#ifndef REFLET_RENDERER_RADIANCE_CACHE_H
-#define REFLET_RENDERER_RADIANCE_CACHE_H
+#ifndef REFLET_EFFECTS_RADIANCE_CACHE_H
+#define REFLET_EFFECTS_RADIANCE_CACHE_H
 
 #include "base/shared.h"
 #include "effects/view.h"
@@ -19,8 +20,9 @@ SHARED_BEGIN
 
 #define RADIANCE_CACHE_SETTINGS(VALUE, SWITCH, CHOICE)                                                                 \
     SWITCH(enabled, 0,                                                                                                 \
-           "World-space radiance cache: paths of scene rays (trace_scene with light=screen) end in remembered light, " \
-           "with all bounces, instead of probes. 11 MB.")                                                              \
+           "World-space radiance cache: diffuse light of what the camera sees or has seen is remembered. Pixels "      \
+           "without a history start from it; paths of scene rays (trace_scene with light=screen) end in it, with all " \
+           "bounces, instead of probes. 11 MB.")                                                                       \
     VALUE(float, cellSize, 0.03, 0.001, 0.5,                                                                           \
           "Largest side of a cell, as a share of its distance from the camera; sides are powers of two in metres. "    \
           "Smaller: sharper indirect light at hits, fewer leaks, more noise.")                                         \
@@ -47,13 +49,22 @@ struct CacheCell {
 };
 
 struct SettleCacheParams {
-    float keep;      // share of its weight that what was known has after a frame
-    uint keptSlots;  // all bits, or none: the table starts empty
+    float keep;        // share of its weight that what was known has after a frame
+    uint keptSlots;    // all bits, or none: the table starts empty
+    float unitChange;  // factor on radiance in cells: CacheBuffers::unit of this frame over that of the last one
 };
 
 struct RememberedLightParams {
     ViewParams view;  // of the surfaces
     float cellSize;   // RadianceCacheSettings
+    float unit;       // CacheBuffers
+};
+
+struct FeedCacheParams {
+    ViewParams view;  // of the surfaces
+    float cellSize;   // RadianceCacheSettings
+    float unit;       // CacheBuffers
+    uint step;        // one pixel of each square of so many pixels to each side is a sample
 };
 
 SHARED_END
@@ -61,8 +72,8 @@ SHARED_END
 #ifdef __cplusplus
 
 #include "effects/lobe/rays.h"
-#include "gpu/images.h"
 #include "gpu/pass_list.h"
+#include "gpu/resource.h"
 
 namespace reflet {
 
@@ -72,26 +83,39 @@ struct CacheBuffers {
     gpu::BufferView cells;  ///< CacheCell per slot
     /// Paths end in a cell with the probability 1 - this / its samples; those that go on feed it.
     float samplesToEnd = 0.0F;
+    float cellSize = 0.0F;  ///< RadianceCacheSettings
+    float unit = 1.0F;      ///< radiance in images of the view: so many times that in cells
     explicit operator bool() const { return bool(cells); }
 };
 
 /// What the cache knows of the light that surfaces receive: LobeLight::remembered of the diffuse lobe.
-gpu::Image rememberedLight(gpu::PassList& f, const CacheBuffers& cache, const RadianceCacheSettings& settings,
-                           const RaySurfaces& from);
+gpu::Image rememberedLight(gpu::PassList& f, const CacheBuffers& cache, const RaySurfaces& from);
 
-/// A cache: what it keeps from frame to frame. A cut need not empty it, as it does not depend on the view.
+/// Adds the light of a diffuse lobe, as traced in this frame, to the cells of its surfaces.
+void feedCache(gpu::PassList& f, const CacheBuffers& cache, const LobeLight& light);
+
+/// A cache: what it keeps from frame to frame. A cut need not empty it, as it does not depend on the view. Several
+/// views may feed and read it, whose lists the device executes in the order in which they were made.
 class RadianceCache {
 public:
+    /// Makes the table, if it was not made yet. Throws Error without memory.
+    void allocate(gpu::Context& context);
+    /// ViewParams::preExposure of the last update.
+    [[nodiscard]] float exposure() const { return exposure_; }
+    /// Empties it in the next update.
+    void forget() { holds_ = false; }
     /// Takes over the last frame's samples, and frees cells that nothing has fed for long. Once a frame. change: share
-    /// of the light that has changed since the last frame, 0 to 1.
-    CacheBuffers update(gpu::PassList& f, const RadianceCacheSettings& settings, float change);
+    /// of the light that has changed since the last frame, 0 to 1. exposure: ViewParams::preExposure of the frame.
+    CacheBuffers update(gpu::PassList& f, const RadianceCacheSettings& settings, float change, float exposure);
 
 private:
-    gpu::KeptBuffer keys_{"radiance_cache.keys"};
-    gpu::KeptBuffer cells_{"radiance_cache.cells"};
-    uint64_t generation_ = 0;
-    uint32_t frames_ = 0;  ///< since the table was empty
-    float unrest_ = 0.0F;  ///< how much of what cells know may be of other light, 0 to 1
+    gpu::Buffer keys_;
+    gpu::Buffer cells_;
+    bool holds_ = false;     ///< cells: they are undefined in the frame after which it does
+    uint64_t list_ = 0;      ///< that wrote them first
+    uint32_t frames_ = 0;    ///< since the table was empty
+    float unrest_ = 0.0F;    ///< how much of what cells know may be of other light, 0 to 1
+    float exposure_ = 1.0F;  ///< of the last frame
 };
 
 }  // namespace reflet

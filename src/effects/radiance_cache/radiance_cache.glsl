@@ -2,7 +2,7 @@
 #ifndef REFLET_RADIANCE_CACHE_GLSL
 #define REFLET_RADIANCE_CACHE_GLSL
 
-#include "renderer/radiance_cache/radiance_cache.h"
+#include "effects/radiance_cache/radiance_cache.h"
 #include "shaders/noise.glsl"
 
 layout(scalar) buffer CacheKeysBlock {

@@ -3,7 +3,7 @@
 // In: surfaces; the cache. Out: mean incoming radiance, cosine-weighted; alpha: frames that it stands for, 0: unknown.
 #version 460
 #extension GL_EXT_scalar_block_layout : require
-#include "renderer/radiance_cache/radiance_cache.glsl"
+#include "effects/radiance_cache/radiance_cache.glsl"
 #include "shaders/ggx.glsl"
 #include "shaders/half_float.glsl"
 #include "shaders/octahedral.glsl"
@@ -45,6 +45,6 @@ void main() {
             samples += c.weight;
         }
     }
-    vec3 mean = clampToHalf(sum / max(samples, 1e-6));
+    vec3 mean = clampToHalf(params.unit * sum / max(samples, 1e-6));
     imageStore(remembered, pixel, vec4(mean, min(samples, mostFrames)));
 }
