@@ -23,10 +23,18 @@ protected:
         info.hasEnvironmentImage = 1;
         info.shadowMapSide = 64;
         info.autoExposure = 1;
+        const RefletIndirectLight light = lightOfFrames();
+        info.light = cache_ != nullptr ? &light : nullptr;
         uint32_t left = 1;
         while (left > 0) {
             EXPECT_REFLET(refletPrepare(view_, settings_, &info, 1000, &left));
         }
+    }
+
+    [[nodiscard]] RefletIndirectLight lightOfFrames() const {
+        RefletIndirectLight light = room_.light();
+        light.radianceCache = cache_;
+        return light;
     }
 
     // effects: those that run. A lobe that is not traced is denoised, if `denoises` has its bit.
@@ -47,7 +55,7 @@ protected:
         if (runs(REFLET_EFFECT_AMBIENT_OCCLUSION)) {
             EXPECT_REFLET(refletAmbientOcclusion(view_, settings_, &image));
         }
-        RefletIndirectLight light = room_.light();
+        RefletIndirectLight light = lightOfFrames();
         RefletEnvironment around = *light.environment;
         around.image = environment_;
         light.environment = &around;
@@ -89,6 +97,7 @@ protected:
     RefletSettings settings_ = makeSettings("balanced");
     RefletView view_ = makeView(context_, 3);
     HostRoom room_{host_, {}};
+    RefletRadianceCache cache_ = nullptr;
     RefletImage environment_ =
         host_.makeImage(VK_FORMAT_R32G32B32A32_SFLOAT, 256, 128, std::vector<vec4>(size_t(256) * 128, vec4(0.5F)));
 };
@@ -121,6 +130,26 @@ TEST_F(Prepare, FramesOfAnyOfTheEffectsMakeNoPipeline) {
     }
     host_.host.waitForAll();
     refletDestroyView(view_);
+    refletDestroySettings(settings_);
+    refletDestroyContext(context_);
+}
+
+TEST_F(Prepare, FramesWithARadianceCacheMakeNoPipeline) {
+    EXPECT_REFLET(refletCreateRadianceCache(context_, &cache_));
+    const uint32_t effects = REFLET_EFFECT_DIFFUSE_GI | REFLET_EFFECT_COMPOSITE;
+    prepare(effects);
+    const uint64_t made = LibraryHost::made().pipelines;
+    EXPECT_GT(made, 10U);
+    for (uint32_t i = 0; i < 8; ++i) {
+        if (i == 4) {
+            EXPECT_REFLET(refletResetView(view_));
+        }
+        host_.host.frame([&](VkCommandBuffer c) { record(c, i, effects, 0); });
+        EXPECT_EQ(LibraryHost::made().pipelines, made) << i;
+    }
+    host_.host.waitForAll();
+    refletDestroyView(view_);
+    refletDestroyRadianceCache(cache_);
     refletDestroySettings(settings_);
     refletDestroyContext(context_);
 }

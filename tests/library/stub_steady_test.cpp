@@ -36,6 +36,7 @@ protected:
         stub::setDevice({});
         const RefletContextInfo info = stub::contextInfo();
         EXPECT_REFLET(refletCreateContext(&info, &context_));
+        EXPECT_REFLET(refletCreateRadianceCache(context_, &cache_));
         const RefletViewInfo size{sizeof size, largest.width, largest.height, framesInFlight, 0, 0};
         EXPECT_REFLET(refletCreateView(context_, &size, &view_));
         EXPECT_REFLET(refletSetOutputSize(view_, 2 * largest.width, 2 * largest.height));
@@ -49,11 +50,13 @@ protected:
             hosts_[i] = std::make_unique<stub::HostFrame>(sizes[i].width, sizes[i].height);
             hosts_[i]->frame.renderSize[0] = sizes[i].width;
             hosts_[i]->frame.renderSize[1] = sizes[i].height;
+            hosts_[i]->light.radianceCache = cache_;
         }
     }
     ~StubSteady() override {
         finish(0);
         refletDestroyView(view_);
+        refletDestroyRadianceCache(cache_);
         for (RefletSettings settings : settings_) {
             refletDestroySettings(settings);
         }
@@ -114,6 +117,7 @@ protected:
     }
 
     static constexpr uint32_t framesInFlight = 3;
+    RefletRadianceCache cache_ = nullptr;
     RefletContext context_ = nullptr;
     RefletView view_ = nullptr;
     std::array<RefletSettings, 2> settings_{};

@@ -42,6 +42,7 @@ struct Stores {
     CubeMap cube;
     gpu::Texture hostCube;
     HostProbeStore probes;
+    RadianceCache remembered;
     gpu::HistoryImage sunVisibility{"shadow_clean.history"};
     gpu::HistoryImage lit{"lit"};
     DenoiseStore ao;
@@ -123,7 +124,8 @@ public:
     }
 
     Results record(gpu::PassList& f, const ViewParams& view) {
-        const lighting::ViewContext context = contextOf(f, view);
+        lighting::ViewContext context = contextOf(f, view);
+        context.cache = stores_.remembered.update(f, {}, 0.0F, 1.0F);
         lighting::Surfaces surfaces = surfacesOf();
         // What no pass reads is kept, so that it is recorded.
         const HostSurfaces given{.depth = surfaces.g.depth, .normal = stores_.color.last()};

@@ -58,6 +58,9 @@ constexpr const char* mainPasses[] = {"contact_shadow",
                                       "ao.finish_ao",
                                       "diffuse.trace_at_once",
                                       "diffuse.denoise_gather",
+                                      "settle_cache",
+                                      "diffuse.feed_cache",
+                                      "diffuse.remembered_light",
                                       "specular.share_rays",
                                       "specular.trace_screen",
                                       "composite",
@@ -261,12 +264,30 @@ TEST(EffectsHost, TellsTheMemoryThatItAllocates) {
 
 // A new effect is to be recorded above, too.
 TEST(EffectsHost, KnowsEveryEffect) {
-    const std::set<std::string> recorded{"accumulate",  "ambient_occlusion", "composite",      "contact",
-                                         "cube_map",    "denoise",           "depth_of_field", "direct",
-                                         "environment", "exposure",          "gbuffer",        "light_mips",
-                                         "lobe",        "motion_blur",       "planar",         "import",
-                                         "probe",       "pyramid",           "rescale",        "reflected_images",
-                                         "shadow",      "temporal",          "tonemap"};
+    const std::set<std::string> recorded{"accumulate",
+                                         "ambient_occlusion",
+                                         "composite",
+                                         "contact",
+                                         "cube_map",
+                                         "denoise",
+                                         "depth_of_field",
+                                         "direct",
+                                         "environment",
+                                         "exposure",
+                                         "gbuffer",
+                                         "light_mips",
+                                         "lobe",
+                                         "motion_blur",
+                                         "planar",
+                                         "import",
+                                         "probe",
+                                         "pyramid",
+                                         "radiance_cache",
+                                         "rescale",
+                                         "reflected_images",
+                                         "shadow",
+                                         "temporal",
+                                         "tonemap"};
     for (const auto& entry : std::filesystem::directory_iterator(REFLET_EFFECTS)) {
         if (entry.is_directory()) {
             EXPECT_TRUE(recorded.contains(entry.path().filename().string())) << entry.path();

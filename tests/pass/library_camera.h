@@ -163,7 +163,8 @@ inline RefletSettings librarySettings(const std::string& preset, const Settings&
         }
         EXPECT_EQ(refletGetSetting(made, info.name), settingText(settings, findSetting(name))) << name;
     }
-    set("temporal.enabled");  // not listed, but LibraryCamera looks it up
+    set("temporal.enabled");  // not listed, but LibraryCamera looks them up
+    set("radiance_cache.enabled");
     return made;
 }
 
@@ -174,8 +175,14 @@ public:
         const RefletViewInfo info{sizeof info, rendered.x, rendered.y, 3, 0, 0};
         EXPECT_REFLET(refletCreateView(context, &info, &view_));
         EXPECT_REFLET(refletSetOutputSize(view_, size.x, size.y));
+        if (is("radiance_cache.enabled", "true")) {
+            EXPECT_REFLET(refletCreateRadianceCache(context, &cache_));
+        }
     }
-    ~LibraryCamera() { refletDestroyView(view_); }
+    ~LibraryCamera() {
+        refletDestroyView(view_);
+        refletDestroyRadianceCache(cache_);
+    }
     LibraryCamera(const LibraryCamera&) = delete;
     LibraryCamera& operator=(const LibraryCamera&) = delete;
 
@@ -284,6 +291,7 @@ protected:
     RefletIndirectLight lightInfo(const Rendered& from, const View& view) {
         RefletIndirectLight light{};
         light.structSize = sizeof light;
+        light.radianceCache = cache_;
         light.light = given(from.images.at("direct"), VK_FORMAT_R16G16B16A16_SFLOAT);
         around_.structSize = sizeof around_;
         const Environment& environment = view.environment;
@@ -348,6 +356,7 @@ protected:
 
     LibraryHost& host_;
     RefletSettings settings_;
+    RefletRadianceCache cache_ = nullptr;
     RefletView view_ = nullptr;
 
 private:

@@ -3,6 +3,7 @@
 #version 460
 #extension GL_EXT_scalar_block_layout : require
 #include "effects/radiance_cache/radiance_cache.glsl"
+#include "shaders/half_float.glsl"
 #include "shaders/octahedral.glsl"
 #include "shaders/projection.glsl"
 
@@ -28,6 +29,6 @@ void main() {
     vec3 n = unpackUnitVector(texelFetch(normal, pixel, 0).r);
     uint slot = findOrAddCacheCell(cachePlace(p, n, cacheCellSide(p, params.view.eye, params.cellSize)));
     if (slot != noCacheSlot) {
-        feedCache(slot, light.rgb / params.unit, hashToUnit(hashPcg(random)));
+        feedCache(slot, clampToHalf(light.rgb) / params.unit, hashToUnit(hashPcg(random)));
     }
 }

@@ -1,6 +1,6 @@
 // The history of temporal antialiasing: reprojection, clipping, and the mean with what a frame shows.
 // The includer declares params.settings, frame and exposureChange, the constants allowance
-// (factors on the clip limits in motion and at rest) and pixelStaleLimits, and of the output's size the images previousMean,
+// (factors on the clip limits in motion and at rest), pixelStaleLimits and aloneBlur, and of the output's size the images previousMean,
 // previousDeviations, mean and deviations, with HAS_COVERAGE also previousCoverage and meanCoverage.
 #ifndef REFLET_TEMPORAL_HISTORY_GLSL
 #define REFLET_TEMPORAL_HISTORY_GLSL
@@ -119,7 +119,9 @@ void accumulate(ivec2 pixel, Shown now) {
     float limit = brightest * luminance(before.rgb);
     float bounded = limit / max(luminance(now.blurred), max(limit, 1e-12));
     vec3 blurred = now.blurred * mix(1.0, bounded, now.near < 1.0 ? trust * min(before.a, 1.0) : 0.0);
-    vec3 shown = blurred + (now.own - blurred) * exact;
+    // Without a history the pixels around are all that can smooth an edge.
+    float alone = before.a == 0.0 && now.variance.x > slack * slack ? aloneBlur : 0.0;
+    vec3 shown = blurred + (now.own - blurred) * exact + alone * (toneExpand(now.middle) - blurred);
     // This frame's own value is always within the box: it may be a one-pixel feature.
     vec3 own = toneCompress(shown);
     vec3 halfSize = max(allowed * sqrt(now.variance + variance) + slack, abs(own - now.middle));
@@ -154,7 +156,8 @@ void accumulate(ivec2 pixel, Shown now) {
     uint random = hashPixel(uvec2(pixel), 0u, params.frame);
     imageStore(mean, pixel, vec4(ditherToHalf(clampToHalf(sum), random), frames));
 #if HAS_COVERAGE
-    imageStore(meanCoverage, pixel, vec4(first ? now.covered : mix(keptCovered, now.covered, part)));
+    float covered = mix(now.covered, now.coveredMiddle, alone);
+    imageStore(meanCoverage, pixel, vec4(first ? covered : mix(keptCovered, covered, part)));
 #endif
     float off = own.x - clipped.x;
     vec2 differs =

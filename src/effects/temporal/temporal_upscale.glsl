@@ -22,6 +22,7 @@ layout(r32f) uniform writeonly image2D meanCoverage;
 // Neighbourhoods are wider than the output's, and samples of a pixel's own area are rarer and less evenly spread.
 const vec2 allowance = vec2(1.0, 2.0);
 const vec2 pixelStaleLimits = vec2(0.4, 0.8);
+const float aloneBlur = 0.0;  // what is shown of a pixel is a mean of four samples
 #include "effects/temporal/temporal_history.glsl"
 
 // Of the Gaussian, by the square of the distance in pixels of the output: 0.4 half a pixel off to both sides.
