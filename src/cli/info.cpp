@@ -95,6 +95,13 @@ ordered_json camerasOf(const Scene& scene) {
 
 ordered_json animationsOf(const Scene& scene) {
     auto animations = ordered_json::array();
+    for (const AnimationClip& clip : scene.clips) {
+        animations.push_back(
+            {{"name", clip.name}, {"seconds", clip.seconds}, {"channels", clip.channels}, {"plays", clip.plays}});
+    }
+    if (scene.fromFile) {
+        return animations;
+    }
     for (const Animation& animation : scene.animations) {
         float seconds = 0.0F;
         for (const Channel& channel : animation.channels) {
@@ -105,7 +112,8 @@ ordered_json animationsOf(const Scene& scene) {
         }
         animations.push_back({{"name", animation.name},
                               {"seconds", seconds},
-                              {"channels", animation.channels.size() + animation.properties.size()}});
+                              {"channels", animation.channels.size() + animation.properties.size()},
+                              {"plays", true}});
     }
     return animations;
 }
@@ -159,8 +167,9 @@ void printLists(const Scene& scene, const ordered_json& info) {
         return fmt::format("{}, {}", nameOr(camera, "without a name"), camera["type"].get<std::string>());
     });
     printList("animation", info["animations"], [](const ordered_json& animation) {
-        return fmt::format("{}, {:.4g} s, {} channels", nameOr(animation, "without a name"),
-                           animation["seconds"].get<double>(), animation["channels"].get<uint64_t>());
+        return fmt::format("{}, {:.4g} s, {} channels{}", nameOr(animation, "without a name"),
+                           animation["seconds"].get<double>(), animation["channels"].get<uint64_t>(),
+                           animation["plays"].get<bool>() ? "" : ", does not play unless --animation names it");
     });
     printList("variant", scene.variants, [](const std::string& variant) { return variant; });
     printList("not drawn", info["not_drawn"], [](const ordered_json& warning) { return warning.get<std::string>(); });

@@ -82,7 +82,6 @@ constexpr std::array hints{
     Hint{"--turntable", "", "reflet turntable SCENE -o film.webp"},
     Hint{"--spin", "", "reflet turntable SCENE -o film.webp"},
     Hint{"--animate", "--frames", "--frames N -o film.webp"},
-    Hint{"--animation", "--time", "--time SECONDS; all animations play"},
     Hint{"--frame", "--time", "--time SECONDS"},
     Hint{"--framerate", "--fps", "--fps F"},
     Hint{"--duration", "--seconds", "--seconds N"},

@@ -2,6 +2,7 @@
 #include "cli/scene_arguments.h"
 
 #include "base/error.h"
+#include "base/visible_text.h"
 #include "capture/pictures.h"
 #include "cli/option_hints.h"
 #include "cli/output_files.h"
@@ -74,7 +75,13 @@ void addSceneOptions(CLI::App& command, SceneOptions& options) {
     command.parse_complete_callback([&options] {
         if (options.variant == "list") {
             for (const std::string& name : loadGltf(options.scene).variants) {
-                fmt::print("{}\n", name);
+                fmt::print("{}\n", oneLine(name));
+            }
+            throw CLI::Success();
+        }
+        if (options.animation == "list") {
+            for (const AnimationClip& clip : loadGltf(options.scene).clips) {
+                fmt::print("{}\n", oneLine(clip.name));
             }
             throw CLI::Success();
         }
@@ -102,6 +109,11 @@ void addViewOptions(CLI::App& command, SceneOptions& options) {
                     "blur, transparent (PNG and EXR with alpha), a name or display values of 0 to 1 "
                     "[environment; for sky and studio: blur]")
         ->type_name("environment|blur|transparent|COLOR|R,G,B");
+    command
+        .add_option("--animation", options.animation,
+                    "Animation of the glTF file, by name or by number from 0; all; none: the rest pose; list: prints "
+                    "their names and ends [each that moves nothing of what an earlier one moves]")
+        ->type_name("NAME|N|all|none|list");
     command.add_option("--time", options.time, "Time of the scene's animations, in seconds; they loop")
         ->type_name("SECONDS");
     command.add_option("--size", options.size, "Width and height in pixels")->type_name("WxH")->capture_default_str();

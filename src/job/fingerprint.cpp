@@ -235,11 +235,12 @@ private:
 
 void addTo(Fingerprint& print, const Scene& scene) {
     const auto& [name, origin, fromFile, images, samplers, materials, meshes, instances, lamps, cameras, sun,
-                 environment, nodes, animations, resting, skins, extensions, variants] = scene;
+                 environment, nodes, animations, resting, skins, extensions, variants, clips] = scene;
     (void)extensions;
     (void)origin;    // of coordinates that are not in the picture
     (void)fromFile;  // it does not change radiance
     (void)variants;  // names alone
+    (void)clips;
     Adder(print).all(fingerprintVersion, name, images, samplers, materials, meshes, instances, lamps, cameras, sun,
                      environment, nodes, animations, resting, skins);
 }

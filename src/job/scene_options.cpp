@@ -102,6 +102,17 @@ void widenThin(const SceneOptions& options, Scene& scene) {
     widenThinMeshes(scene, cameraOf(options, scene), parseSize(options.size).y);
 }
 
+// Says which of several animations of the same thing plays.
+void noteClips(const Scene& scene) {
+    const auto playing = std::ranges::find(scene.clips, true, &AnimationClip::plays);
+    const auto still = std::ranges::count(scene.clips, false, &AnimationClip::plays);
+    if (still > 0 && playing != scene.clips.end()) {
+        printNote(
+            fmt::format("{} other animation{} of what '{}' moves {} not play: --animation NAME, or --animation list",
+                        still, still == 1 ? "" : "s", playing->name, still == 1 ? "does" : "do"));
+    }
+}
+
 }  // namespace
 
 void printWarning(const std::string& message) {
@@ -123,6 +134,9 @@ Scene loadScene(const SceneOptions& options) {
         if (!options.variant.empty()) {
             failUsage("--variant {}: a built-in scene has no material variants", options.variant);
         }
+        if (!options.animation.empty()) {
+            failUsage("--animation {}: all animations of a built-in scene play", options.animation);
+        }
         return makeBuiltin(std::string_view(options.scene).substr(builtinPrefix.size()));
     }
     if (options.sceneIndex && *options.sceneIndex < 0) {
@@ -130,9 +144,13 @@ Scene loadScene(const SceneOptions& options) {
     }
     Scene scene = loadGltf(options.scene, {.scene = options.sceneIndex.value_or(-1),
                                            .variant = options.variant,
+                                           .animation = options.animation,
                                            .zUp = options.up == "Z",
                                            .warn = printWarning,
                                            .strict = options.strict});
+    if (options.animation.empty()) {
+        noteClips(scene);
+    }
     widenThin(options, scene);
     lightClosedRoom(options, scene);
     return scene;

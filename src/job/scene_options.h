@@ -14,8 +14,9 @@ namespace reflet {
 struct SceneOptions {
     std::string scene;
     std::optional<int> sceneIndex;
-    std::string variant;   ///< of the glTF file's materials; empty: its default
-    std::string up = "Y";  ///< the file's axis that points up: "Y" or "Z"
+    std::string variant;    ///< of the glTF file's materials; empty: its default
+    std::string animation;  ///< of the glTF file, as GltfOptions has it
+    std::string up = "Y";   ///< the file's axis that points up: "Y" or "Z"
     std::string camera;
     std::string viewFile;
     CameraOptions placing;    ///< after the view file

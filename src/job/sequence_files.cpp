@@ -80,6 +80,7 @@ nlohmann::ordered_json commonRecord(const SceneOptions& scene, const SequenceOpt
             {"scene_fingerprint", sceneFingerprint(scene.scene)},
             {"scene_index", scene.sceneIndex.value_or(-1)},
             {"variant", scene.variant},
+            {"animation", scene.animation},
             {"size", {size.x, size.y}},
             {"seed", scene.seed},
             {"first_frame", sequence.firstFrame},

@@ -266,6 +266,14 @@ struct Environment {
     bool operator==(const Environment&) const = default;
 };
 
+/// An animation of a file.
+struct AnimationClip {
+    std::string name;
+    float seconds = 0.0F;  ///< until its last key
+    size_t channels = 0;
+    bool plays = false;  ///< it is in Scene::animations
+};
+
 struct Scene {
     std::string name;
     /// Of world space, in the coordinates of the file. Floats have few digits far from their origin, so it is near what
@@ -282,12 +290,13 @@ struct Scene {
     std::optional<Sun> sun;  ///< the first directional light
     Environment environment;
     std::vector<Node> nodes;            ///< parents first; empty if there are neither animations nor skins
-    std::vector<Animation> animations;  ///< all play at once
+    std::vector<Animation> animations;  ///< that play, at once
     /// Parts of animated values that no animation changes, such as the strength of an animated colour; one key each.
     std::vector<PropertyChannel> resting;
     std::vector<Skin> skins;
     std::vector<std::string> extensions;  ///< that the file says it uses
     std::vector<std::string> variants;    ///< names of the file's material variants, whether chosen or not
+    std::vector<AnimationClip> clips;     ///< the file's animations, whether chosen or not
 
     /// World-space bounds of all instances at time 0; empty if there are none.
     [[nodiscard]] Aabb bounds() const;

@@ -101,5 +101,33 @@ TEST_F(Animation, AnInvalidTimeIsRefused) {
     EXPECT_EQ(render("moving.gltf", {"-o", "a.png", "--time", "soon"}).status, 2);
 }
 
+TEST_F(Animation, OneOfSeveralClipsIsChosen) {
+    json file = json::parse(triangleFile(true, 0.5F));
+    json clip = file["animations"][0];
+    clip["name"] = "go\nhome";
+    file["animations"] = {file["animations"][0], clip};
+    file["animations"][0]["name"] = "stay";
+    write("clips.gltf", jsonText(file));
+    EXPECT_EQ(run({"render", "clips.gltf", "--animation", "list"}).out, "stay\ngo\\nhome\n");
+    const Outcome info = run({"info", "clips.gltf"});
+    EXPECT_NE(info.out.find("'stay', 2 s, 1 channels\n"), std::string::npos) << info.out;
+    EXPECT_NE(info.out.find("does not play unless --animation names it"), std::string::npos) << info.out;
+    const auto trace = [&](const std::string& scene, const Arguments& more) {
+        Arguments all{"reference", scene, "--size", "16x9", "--spp", "1", "-o", "truth.exr"};
+        all.insert(all.end(), more.begin(), more.end());
+        const Outcome traced = run(all);
+        EXPECT_EQ(traced.status, 0) << traced.err;
+        return std::pair(read("truth.exr"), traced.err);
+    };
+    EXPECT_EQ(trace("clips.gltf", {"--animation", "none"}).first, trace("half.gltf", {}).first) << "the rest pose";
+    EXPECT_EQ(trace("clips.gltf", {"--animation", "1"}).first, trace("start.gltf", {}).first);
+    const std::string note = trace("clips.gltf", {}).second;
+    EXPECT_NE(note.find("1 other animation of what 'stay' moves does not play"), std::string::npos) << note;
+    EXPECT_TRUE(
+        refused(render("clips.gltf", {"-o", "a.png", "--animation", "run"}), 2, {"no animation 'run'", "stay"}));
+    EXPECT_TRUE(
+        refused(render("builtin:moving", {"-o", "a.png", "--animation", "0"}), 2, {"--animation 0", "built-in"}));
+}
+
 }  // namespace
 }  // namespace reflet::animation_test

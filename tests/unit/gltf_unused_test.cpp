@@ -38,7 +38,7 @@ TEST(GltfUnused, AnimationsOfNodesOutsideTheDrawnSceneAreNotKept) {
     EXPECT_TRUE(first.animations.contains(0));
     EXPECT_TRUE(first.animations.contains(1001)) << "keeps its index, which messages name";
     EXPECT_EQ(read(b, 1).animations.size(), 1000U);
-    EXPECT_EQ(load(b).scene.animations.size(), 2U);
+    EXPECT_EQ(load(b).scene.clips.size(), 2U);
     b.document.erase("scenes");
     b.document.erase("scene");
     EXPECT_EQ(read(b).animations.size(), 1002U) << "a file without scenes shows all its nodes";

@@ -1,5 +1,6 @@
 // Loads glTF 2.0 files (.gltf, .glb) into a Scene: read and check the document, choose the scene, place its nodes.
 #include "scene/gltf/gltf.h"
+#include "scene/gltf/clips.h"
 
 #include "base/message.h"
 #include "scene/gltf/lens.h"
@@ -88,6 +89,7 @@ Scene readScene(const std::filesystem::path& path, const GltfOptions& options, G
     GltfMaterials materials(document, scene, report);
     scene.extensions = document.model.extensionsUsed;
     scene.variants = variantNames(document.model);
+    scene.clips = chooseGltfAnimations(document, options.animation, report);
     GltfMeshes meshes(document, materials, scene, report, chooseVariant(scene.variants, options.variant, report));
     const GltfPlacement placement = placeGltfNodes(document, roots, meshes, scene, report);
     bindGltfProperties(document, materials, placement, scene, report);

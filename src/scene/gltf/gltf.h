@@ -14,6 +14,10 @@ struct GltfOptions {
     int scene = -1;
     /// Name of the material variant (KHR_materials_variants) to load; empty: the file's default materials.
     std::string variant;
+    /// Animation to play, by name or by number from 0; "all"; "none": the file's rest pose. Empty: each in the file's
+    /// order that moves nothing of what an earlier one moves. So the first of several clips of one figure plays, and
+    /// all of a scene in which each thing has one of its own.
+    std::string animation;
     /// The file's Z axis points up, which becomes Y; in glTF it is Y, but some programs write Z.
     bool zUp = false;
     /// Receives each kind of warning once, at the end: one line without a full stop, with the number of further cases.
