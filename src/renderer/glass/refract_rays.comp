@@ -35,6 +35,21 @@ layout(rgba16f) uniform writeonly image2DArray answer;
 layout(rgba8) uniform writeonly image2DArray source;
 #include "effects/lobe/rays_append.glsl"
 
+const uint innerReflections = 4u;  // that a ray is followed through
+const uint searchSteps = 8u;       // until a face is found that the ray meets
+
+// A layer of glass at a pixel.
+struct Pane {
+    ivec2 pixel;
+    vec3 point;
+    vec3 normal;  // of shading
+    vec3 toEye;
+    vec4 passes;  // share of the light that passes the surface, thickness [m]
+    vec4 inside;  // extinction [1/m], index of refraction
+    float roughness;
+    vec4 dielectric;
+};
+
 // A ray at a boundary of the glass.
 struct Crossing {
     vec3 point;
@@ -43,43 +58,89 @@ struct Crossing {
     float path;      // metres inside
 };
 
-struct BackFace {
+float distanceToEye(vec3 p) { return params.view.eye.w > 0.0 ? distance(p, params.view.eye.xyz) : 1.0; }
+
+struct Face {
     bool found;
     vec3 point;
-    vec3 normal;
+    vec3 normal;  // outward
 };
 
-BackFace backFaceAt(ivec2 pixel, uint same) {
-    BackFace b;
-    float d = texelFetch(exitDepth, pixel, 0).r;
-    b.found = d > 0.0 && texelFetch(kind, pixel, 0).r == same;
-    b.point = uvToWorld(pixelToUv(pixel, params.view.pixel), max(d, 1e-12), params.view.clipToWorld);
-    b.normal = unpackUnitVector(texelFetch(exitNormal, pixel, 0).r);
-    return b;
+const Face noFace = Face(false, vec3(0.0), vec3(0.0));
+
+// The back face of the glass at a pixel, or its front.
+Face faceAt(ivec2 pixel, uint same, bool front) {
+    float d = front ? texelFetch(depth, pixel, 0).r : texelFetch(exitDepth, pixel, 0).r;
+    uint n = front ? texelFetch(normal, pixel, 0).r : texelFetch(exitNormal, pixel, 0).r;
+    vec3 point = uvToWorld(pixelToUv(pixel, params.view.pixel), max(d, 1e-12), params.view.clipToWorld);
+    return Face(d > 0.0 && texelFetch(kind, pixel, 0).r == same, point, unpackUnitVector(n));
 }
 
-// Where a ray inside leaves: the back face is taken for its tangent plane at the pixel of the last estimate, again and
-// again. Without a back face: a slab.
-Crossing findExit(ivec2 pixel, vec3 p, vec3 n, vec3 inside, float thickness) {
-    Crossing c = Crossing(p + inside * thickness, -n, inside, thickness);
+Face faceAround(vec3 point, uint same, bool front) {
+    vec4 clip = params.view.worldToClip * vec4(point, 1.0);
+    vec2 uv = ndcToUv(clip.xy / clip.w);
+    bool onScreen = clip.w > 0.0 && all(greaterThanEqual(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)));
+    return onScreen ? faceAt(ivec2(uv * params.view.size), same, front) : noFace;
+}
+
+// Where a ray inside meets a face: that at the last estimate is taken for its tangent plane, again and again. Near the
+// silhouette the first one faces away from the ray, which goes to the other side of the glass: the estimate then moves
+// on, twice as far each time, until one faces it, and half way back where there is no glass. Returns false if none does.
+bool follow(inout Crossing c, float guess, uint same, bool front) {
     uint exitSteps = notInlined(params.exitSteps, gl_GlobalInvocationID.x);
-    if (exitSteps == 0u) {
-        return c;
+    vec3 p = c.point;
+    float least = 2.0 * params.view.pixelAngle * distanceToEye(p);
+    float longest = max(4.0 * guess, 0.25 * params.view.size.y * 0.5 * least);
+    float path = guess;
+    float within = 0.0;
+    uint planes = 0u;
+    for (uint i = 0u; i < exitSteps + searchSteps && planes < exitSteps; ++i) {
+        Face face = faceAround(p + c.direction * path, same, front);
+        float slope = dot(c.direction, face.normal);
+        float ahead = dot(face.point - p, face.normal);
+        if (!face.found) {
+            if (planes > 0u) {
+                break;
+            }
+            path = 0.5 * (within + path);
+        } else if (slope > 0.02 && ahead > 0.0) {
+            path = min(ahead / slope, longest);
+            c.point = p + c.direction * path;
+            c.normal = face.normal;
+            c.path = path;
+            ++planes;
+        } else {
+            within = path;
+            path = min(max(2.0 * path, least), longest);
+        }
     }
-    uint same = texelFetch(kind, pixel, 0).r;
-    BackFace back = backFaceAt(pixel, same);
-    float longest = back.found ? 4.0 * distance(back.point, p) : 0.0;
-    for (uint i = 0u; i < exitSteps && back.found; ++i) {
-        float slope = dot(inside, back.normal);
-        float path = slope > 0.02 ? dot(back.point - p, back.normal) / slope : distance(back.point, p);
-        path = clamp(path, 0.0, longest);
-        c = Crossing(p + inside * path, back.normal, inside, path);
-        vec4 clip = params.view.worldToClip * vec4(c.point, 1.0);
-        vec2 uv = ndcToUv(clip.xy / clip.w);
-        bool onScreen = clip.w > 0.0 && all(greaterThanEqual(uv, vec2(0.0))) && all(lessThan(uv, vec2(1.0)));
-        back = onScreen ? backFaceAt(ivec2(uv * params.view.size), same) : BackFace(false, vec3(0.0), vec3(0.0));
+    return planes > 0u;
+}
+
+// Without a back face: a slab.
+Crossing findExit(Pane pane, vec3 inside, uint same) {
+    Face back = faceAt(pane.pixel, same, false);
+    Crossing c = Crossing(pane.point, -pane.normal, inside, 0.0);
+    if (!back.found || !follow(c, distance(back.point, pane.point), same, false)) {
+        c.point += inside * pane.passes.a;
+        c.path = pane.passes.a;
     }
     return c;
+}
+
+bool staysInside(Crossing c, float ior) {
+    float slope = dot(c.direction, c.normal);
+    return ior * ior * (1.0 - slope * slope) >= 1.0;
+}
+
+// Follows a ray that total reflection keeps inside to the next boundary, a front or a back face by where it goes.
+bool goOn(inout Crossing c, uint same) {
+    Crossing next = Crossing(c.point, c.normal, reflect(c.direction, c.normal), 0.0);
+    bool found = follow(next, c.path, same, dot(next.direction, directionToEye(c.point, params.view.eye)) > 0.0);
+    if (found) {
+        c = next;
+    }
+    return found;
 }
 
 // A ray that total reflection keeps inside is taken to leave through a face opposite to the front.
@@ -98,18 +159,6 @@ vec3 leave(inout Crossing c, vec3 n, float ior, vec4 dielectric, inout vec3 ligh
     return outside;
 }
 
-// A layer of glass at a pixel.
-struct Pane {
-    ivec2 pixel;
-    vec3 point;
-    vec3 normal;  // of shading
-    vec3 toEye;
-    vec4 passes;  // share of the light that passes the surface, thickness [m]
-    vec4 inside;  // extinction [1/m], index of refraction
-    float roughness;
-    vec4 dielectric;
-};
-
 struct Refracted {
     Crossing exit;
     vec3 direction;
@@ -120,8 +169,13 @@ Refracted refractBy(Pane pane, float ior, vec3 light) {
     vec3 bent;
     refractAt(-pane.toEye, -pane.normal, 1.0 / ior, bent);
     Refracted r;
-    r.exit = findExit(pane.pixel, pane.point, pane.normal, bent, pane.passes.a);
-    r.light = light * pane.passes.rgb * exp(-pane.inside.rgb * r.exit.path);
+    uint same = texelFetch(kind, pane.pixel, 0).r;
+    r.exit = findExit(pane, bent, same);
+    float path = r.exit.path;
+    for (uint i = 0u; i < innerReflections && staysInside(r.exit, ior) && goOn(r.exit, same); ++i) {
+        path += r.exit.path;
+    }
+    r.light = light * pane.passes.rgb * exp(-pane.inside.rgb * path);
     r.direction = leave(r.exit, pane.normal, ior, pane.dielectric, r.light);
     return r;
 }
