@@ -244,7 +244,7 @@ void ApiMachine::manage() {
         case 16:
             return changeCache(caches_[bytes_.below(caches_.size())]);
         default:
-            return bytes_.chance(64) ? prepare(view) : askView(view);
+            return bytes_.chance(128) ? prepare(view) : askView(view);
     }
 }
 

@@ -152,6 +152,10 @@ void ApiMachine::askSettings(const SettingsSlot& slot) {
 }
 
 void ApiMachine::changeCache(CacheSlot& slot) {
+    if (!slot.alive && bytes_.chance(40)) {
+        note(ApiCall::resetCache, refletResetRadianceCache(cacheOf(slot)));  // NULL, or destroyed
+        return;
+    }
     if (!slot.alive) {
         RefletContext context = contextOf(contexts_[bytes_.chance(40) ? 1 : 0]);
         RefletRadianceCache made = nullptr;
