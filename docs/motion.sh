@@ -25,7 +25,7 @@ if [[ $# -gt 0 && $1 != page ]]; then
         measure "$name"
     done
 elif [[ $# -eq 0 ]]; then
-    for name in pan-5 pan-15 rods leaves mirror lamp sun lamp-off lamp-on figures instances glass blended blended-pan cut stop; do
+    for name in pan-5 pan-15 rods leaves mirror lamp sun lamp-off lamp-on figures instances glass blended blended-pan cut look-back stop; do
         [[ -f $out/$name.json ]] || measure "$name"
     done
 fi

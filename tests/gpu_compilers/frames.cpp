@@ -132,7 +132,10 @@ RecordedFrame recordSteadyFrame(RefletContext context, const FrameCase& wanted) 
     for (const auto& [name, value] : wanted.settings) {
         check(refletSetSetting(settings, name, value));
     }
-    const Inputs inputs(wanted.size, wanted.cascades);
+    Inputs inputs(wanted.size, wanted.cascades);
+    if (std::strcmp(refletGetSetting(settings, "radiance_cache.enabled"), "true") == 0) {  // as the program has it
+        check(refletCreateRadianceCache(context, &inputs.light.radianceCache));
+    }
     RecordedFrame frame;
     for (uint32_t i = 0; i < 4; ++i) {
         frame = {};
@@ -142,6 +145,7 @@ RecordedFrame recordSteadyFrame(RefletContext context, const FrameCase& wanted) 
     }
     refletDestroySettings(settings);
     refletDestroyView(view);
+    refletDestroyRadianceCache(inputs.light.radianceCache);
     return frame;
 }
 

@@ -49,9 +49,10 @@ struct CacheCell {
 };
 
 struct SettleCacheParams {
-    float keep;        // share of its weight that what was known has after a frame
-    uint keptSlots;    // all bits, or none: the table starts empty
-    float unitChange;  // factor on radiance in cells: CacheBuffers::unit of this frame over that of the last one
+    float keep;      // share of its weight that what was known has after a frame
+    uint keptSlots;  // all bits, or none: the table starts empty
+    float
+        unitChange;  // factor on radiance in cells, which have the pre-exposure of the last update: this one over that
 };
 
 struct RememberedLightParams {
@@ -84,7 +85,7 @@ struct CacheBuffers {
     /// Paths end in a cell with the probability 1 - this / its samples; those that go on feed it.
     float samplesToEnd = 0.0F;
     float cellSize = 0.0F;  ///< RadianceCacheSettings
-    float unit = 1.0F;      ///< radiance in images of the view: so many times that in cells
+    float unit = 1.0F;      ///< pre-exposure of the view over that of the cells
     explicit operator bool() const { return bool(cells); }
 };
 
@@ -111,7 +112,7 @@ public:
 private:
     gpu::Buffer keys_;
     gpu::Buffer cells_;
-    bool holds_ = false;     ///< cells: they are undefined in the frame after which it does
+    bool holds_ = false;     ///< what the tables contain is defined
     uint64_t list_ = 0;      ///< that wrote them first
     uint32_t frames_ = 0;    ///< since the table was empty
     float unrest_ = 0.0F;    ///< how much of what cells know may be of other light, 0 to 1
