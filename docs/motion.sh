@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Makes docs/motion.md and docs/pictures/motion/*.png: faults in hard motion, by `reflet bench --motions`. The measurements are kept
-# in out/motion/ as JSON, one for each case, and not repeated; delete that folder after the program has changed. Takes two
-# hours on two cores, a quarter of it for the references, which are cached.
+# in out/motion/ as JSON, one for each case, and not repeated; delete that folder after the program has changed. Takes half an
+# hour on two cores, a quarter of it for the references, which are cached.
 #
 #     docs/motion.sh           makes the missing measurements, then writes the page
 #     docs/motion.sh page      writes the page from existing measurements

@@ -4,9 +4,9 @@
 #define REFLET_RENDERER_TRACE_SCENE_H
 
 #include "base/shared.h"
+#include "effects/radiance_cache/radiance_cache.h"
 #include "effects/shadow/shadow.h"
 #include "effects/view.h"
-#include "effects/radiance_cache/radiance_cache.h"
 
 SHARED_BEGIN
 
