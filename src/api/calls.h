@@ -1,4 +1,4 @@
-// What every function of the C API does: checks its arguments, keeps exceptions inside, says what went wrong.
+// Common code of all C API functions: argument checks, exceptions to result codes, error texts.
 #pragma once
 
 #include "base/error.h"
@@ -32,7 +32,7 @@ template <class... Args>
     throw Failure(REFLET_ERROR_INVALID_ARGUMENT, formatMessage(format, fmt::make_format_args(args...)));
 }
 
-/// Of this thread's last failed call.
+/// Error text of this thread's last failed call.
 std::string& lastError();
 
 /// Notes the exception that is being handled, and returns its result. To be called in a catch block.
@@ -49,16 +49,16 @@ RefletResult guarded(const F& body) {
     }
 }
 
-/// A struct of the host's in the size that this library knows: what an older host does not have is zero. least: its
-/// size in version 0.2, the first with this binary interface, once it has grown since. Throws Failure for NULL and for
-/// a size that cannot be.
+/// Copies a host's struct to this library's version of it: fields that an older host lacks are zero. least: the
+/// struct's size in version 0.2, the first with this ABI, if it has grown since. Throws Failure for NULL and for a size
+/// that cannot be.
 template <class T>
 T adopted(const T* given, const char* name, size_t least = sizeof(T)) {
     if (given == nullptr) {
         failArgument("{}: is NULL", name);
     }
     T result{};
-    // No version of a struct ends within what it is aligned to: half a pointer would be adopted.
+    // The size of every version of a struct is a multiple of its alignment; another size would copy half a pointer.
     if (given->structSize < least || given->structSize % alignof(T) != 0) {
         failArgument("{}.structSize: is {}; set it to sizeof the struct, here {}", name, given->structSize, sizeof(T));
     }
@@ -71,7 +71,7 @@ T adopted(const T* given, const char* name, size_t least = sizeof(T)) {
     return result;
 }
 
-/// Element i of an array of structs that may have the size of an older header: that of the first.
+/// Element i of an array of structs, whose stride is the structSize of the first (perhaps of an older header).
 template <class T>
 const T* elementOf(const T* first, size_t i) {
     return i == 0 ? first

@@ -1,4 +1,4 @@
-// A frame of a view, as the C API and refletPrepare record it, on values that are checked already.
+// Records a frame of a view, for the C API and refletPrepare. Arguments are already checked.
 #pragma once
 
 #include "api/handles.h"
@@ -7,19 +7,19 @@
 
 namespace reflet::api {
 
-/// Runs the body of a function on a view: under its context's lock, with its memory account, telling failures.
+/// Runs the body of a function on a view: under the view's lock, with its memory account; reports failures.
 RefletResult onView(RefletView view, const std::function<void()>& body);
 /// The same between refletBeginFrame and refletEndFrame, and with settings.
 RefletResult inFrame(RefletView view, RefletSettings settings,
                      const std::function<void(Frame&, const Settings&)>& body);
 
-/// Leaves what contradicts itself in the current frame, and was not told before, to the host's log.
+/// Queues contradictions in the current frame's inputs that were not reported before for the host's log.
 void noteContradictions(RefletView_T& view);
 
 /// Throws Failure once the device is known to be lost.
 void checkDevice(const RefletContext_T& context);
 
-/// The size of refletTemporal's pictures.
+/// Size of refletTemporal's output.
 inline uvec2 outputSizeOf(const RefletView_T& view) {
     return view.outputSize.x > 0 ? view.outputSize : view.size;
 }
@@ -27,10 +27,10 @@ inline uvec2 outputSizeOf(const RefletView_T& view) {
 /// The settings as the stages take them.
 Settings settingsOfFrame(const RefletView_T& view, const Settings& settings, const lighting::Change& change);
 
-/// In place of a number of channels: depth.
+/// Passed as the number of channels for depth images.
 constexpr uint32_t depthChannel = 0;
 
-/// What is read of an image of the host: the rectangle of this size at RefletImage::offset.
+/// The part of a host's image that is read: the rectangle of this size at RefletImage::offset.
 struct Rectangle {
     uvec2 size{0};          ///< 0: all of the image, which has no offset
     bool inLarger = false;  ///< the image may be larger
@@ -44,7 +44,7 @@ void checkOutput(const RefletImage& image, const char* name, uvec2 size);
 /// Whether it has a depth aspect.
 bool isDepthFormat(VkFormat format);
 
-/// Makes the host's images readable by compute passes while it lives, and leaves them as they were.
+/// Transitions the host's images for compute passes while it lives, and restores their layouts at the end.
 class HostImages {
 public:
     explicit HostImages(RefletView_T& view) : view_(view) {}
@@ -52,11 +52,11 @@ public:
     HostImages(const HostImages&) = delete;
     HostImages& operator=(const HostImages&) = delete;
 
-    /// None for an absent one. size: of what is read of it; 0: all. layers, levels: that its view has.
+    /// None for an absent image. size: of the part that is read; 0: all. layers, levels: those of its view.
     gpu::Image add(const RefletImage& image, uvec2 size, uint32_t layers = 1, uint32_t levels = 1);
-    /// One that passes write, in VK_IMAGE_LAYOUT_GENERAL. size: of what is written of it.
+    /// An image that passes write, in VK_IMAGE_LAYOUT_GENERAL. size: of the part that is written.
     gpu::Image addOutput(const RefletImage& image, uvec2 size);
-    /// As the host finds it once this has ended.
+    /// The output image with its layout, stages and access after this object has ended.
     [[nodiscard]] static RefletImage left(const RefletImage& output);
     /// Records the barriers of all images added so far.
     void acquire();
@@ -77,7 +77,8 @@ private:
 };
 
 const char* lobeName(uint32_t lobe);
-/// Throws Failure while rays wait for a host's answers: other lobes would change what these read, or miss their light.
+/// Throws Failure while rays wait for a host's answers: other lobes would change the light that these read, or miss
+/// theirs.
 void checkNonePending(const Frame& frame);
 
 /// A result for the host.
@@ -103,23 +104,24 @@ struct EnvironmentInputs {
 
 /// The frame's context with the tables that stages read, which are made for the first of them.
 const lighting::ViewContext& contextOf(RefletView_T& view, Frame& frame);
-/// Records what a call has listed. What later calls and the host may read stays for the rest of the frame.
+/// Records the passes that a call has listed. Images that later calls or the host may read are kept until the frame
+/// ends.
 void finishCall(RefletView_T& view, const Frame& frame);
 
-/// For the recorder. before: the size of the last frame.
+/// Frame sizes for the recorder. before: the size of the last frame.
 gpu::FrameSizes sizesOf(const RefletView_T& view, uvec2 before);
 
-/// All passes that a change of the frames' size may need, with nothing to do.
+/// Records all passes that a change of the frame size may need, without any work, so that their pipelines exist.
 void recordRescaling(RefletView_T& view);
 void recordImport(RefletView_T& view, Frame& frame, const HostSurfaces& host, const ImportParams& params);
 gpu::Image recordSunShadow(RefletView_T& view, Frame& frame, const Settings& settings, const SunInputs& in);
 /// light: see ContactParams.
 gpu::Image recordContactShadows(RefletView_T& view, Frame& frame, const Settings& settings, const vec4& light);
-/// lamps: are completed.
+/// lamps: missing members are filled in.
 gpu::Image recordLampShadows(RefletView_T& view, Frame& frame, const Settings& settings,
                              std::vector<lighting::HostLamp>& lamps);
 gpu::Image recordAmbientOcclusion(RefletView_T& view, Frame& frame, const Settings& settings);
-/// What rays of a lobe find, as the host gives it.
+/// The host's inputs for the rays of a lobe.
 struct LobeInputsOfHost {
     gpu::Image light;
     const EnvironmentInputs& environment;
@@ -128,23 +130,24 @@ struct LobeInputsOfHost {
 
 LobeLight recordLobe(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe,
                      const LobeInputsOfHost& in);
-/// The first half of recordLobe: rays, the screen, and what is left for the host, in frame.pending.
+/// The first half of recordLobe: ray generation and the screen-space march; the remaining rays are listed for the host,
+/// in frame.pending.
 MissedRays recordMissedRays(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe,
                             const LobeInputsOfHost& in);
 /// The second half, once the host has answered them.
 LobeLight recordAnswers(RefletView_T& view, Frame& frame, const Settings& settings);
 LobeLight recordDenoise(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe, gpu::Image noisy);
-/// light: none: what the lobes were given.
+/// light: none: the light that the lobes were given.
 lighting::Light recordComposite(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image light);
-/// color: none: what was composited.
+/// color: none: the composite.
 gpu::Image recordTemporal(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color);
-/// color: none: what was antialiased, or composited.
+/// color: none: the antialiased picture, or the composite.
 gpu::Image recordDepthOfField(RefletView_T& view, Frame& frame, const Settings& settings, const Lens& lens,
                               gpu::Image color);
 /// color: none: the last picture of this frame.
 gpu::Image recordMotionBlur(RefletView_T& view, Frame& frame, const Settings& settings, gpu::Image color);
 
-/// What the tone map is given: a host's picture, or the frame's.
+/// Input of the tone map: a host's picture, or the frame's.
 lighting::Light pictureToMap(RefletView_T& view, const Frame& frame, const Settings& settings, gpu::Image color);
 
 struct DisplayInputs {
@@ -154,7 +157,7 @@ struct DisplayInputs {
     const DisplayTarget* target = nullptr;  ///< NULL: sRGB in an RGBA8 image of this frame
 };
 
-/// Where a tone map goes, without the image of the host. Throws Failure. The image it makes or takes is of its format.
+/// Target of a tone map, without the host's image: its encoding and the format of the image. Throws Failure.
 DisplayTarget displayTarget(const RefletView_T& view, const RefletToneMapInfo& info);
 void recordToneMap(RefletView_T& view, Frame& frame, const Settings& settings, const DisplayInputs& in);
 

@@ -1,4 +1,4 @@
-// What the handles of the C API stand for.
+// The objects behind the handles of the C API.
 #pragma once
 
 #include "api/settings.h"
@@ -25,7 +25,7 @@
 struct RefletContext_T {
     std::mutex mutex;  ///< of `owned` and `destroyed`
     std::unique_ptr<reflet::gpu::Context> gpu;
-    uint32_t owned = 0;      ///< views and radiance caches that exist, and hold it
+    uint32_t owned = 0;      ///< number of views and radiance caches that hold it
     bool destroyed = false;  ///< by the host
     void (*log)(void* user, RefletResult result, const char* text) = nullptr;
     void* logUser = nullptr;
@@ -41,7 +41,7 @@ struct RefletRadianceCache_T {
     reflet::RadianceCache table;
     reflet::CacheBuffers current;             ///< of the frame that was begun last
     std::optional<uint32_t> frame;            ///< RefletFrameInfo::frameIndex of that one; none: there was none
-    const RefletView_T* settledBy = nullptr;  ///< the view that began it; only to be compared
+    const RefletView_T* settledBy = nullptr;  ///< the view that began it; only compared, never dereferenced
 };
 
 namespace reflet::api {
@@ -59,7 +59,7 @@ struct EnvironmentImages {
 /// The maps of the host's probes.
 struct ProbeImages {
     HostProbeStore maps;
-    std::vector<std::byte> key;  ///< what they were made of; empty: nothing
+    std::vector<std::byte> key;  ///< the inputs that they were made from; empty: none
     uint64_t list = 0;           ///< whose passes make them
 };
 
@@ -73,7 +73,7 @@ struct KnownEnvironment {
     bool operator==(const KnownEnvironment&) const = default;
 };
 
-/// All that a view keeps from frame to frame.
+/// Persistent state of a view: histories and other resources that outlive a frame.
 struct ViewStore {
     gpu::KeptBuffer blueNoise{"blue_noise"};
     gpu::KeptImage ggxTable{"ggx_table"};
@@ -97,7 +97,7 @@ struct ViewStore {
     LobeStore& of(uint32_t lobe) { return lobe == lobeDiffuse ? diffuse : specular; }
 };
 
-/// What has been recorded of the current frame.
+/// State and results of the current frame so far.
 struct Frame : lighting::Surfaces {
     lighting::ViewContext context;    ///< its environment is that of the last lobe
     std::optional<LightBound> bound;  ///< of `light` and `composed`
@@ -105,7 +105,7 @@ struct Frame : lighting::Surfaces {
     gpu::History lit;                 ///< swapped by the first effect that reads or writes it
     gpu::Image composed;
     gpu::Image antialiased;
-    gpu::Image sharp;  ///< what the first of depth of field and motion blur was given
+    gpu::Image sharp;  ///< input of the first of depth of field and motion blur
     gpu::Image defocused;
     gpu::Image circleOfConfusion;
     gpu::Image blurred;  ///< of the last refletMotionBlur
@@ -135,7 +135,7 @@ struct Frame : lighting::Surfaces {
     vec2 jitter{0.0F};
 };
 
-/// A frame as the host gave it, for refletDescribe. Its pointers are not to be followed.
+/// A frame's parameters as the host gave them, for refletDescribe. Its pointers may dangle: do not dereference them.
 struct Described {
     RefletFrameInfo info{};
     RefletGBuffer gbuffer{};
@@ -161,19 +161,20 @@ struct RefletView_T {
     bool destroyed = false;                ///< by the host
     std::shared_ptr<VkDeviceSize> memory;  ///< bytes in use
     reflet::gpu::Recorder recorder;
-    bool timesPasses;                           ///< REFLET_VIEW_PASS_TIMES
-    uint32_t seed = 0;                          ///< RefletViewInfo::viewIndex
-    reflet::uvec2 size{0};                      ///< the largest of its frames
-    reflet::uvec2 renderSize{0};                ///< of the current or last frame
-    uint32_t steadyFrames = UINT32_MAX;         ///< before that one, since the size changed; UINT32_MAX: it never did
-    reflet::uvec2 outputSize{0};                ///< of refletTemporal's pictures; 0: as size
+    bool timesPasses;                    ///< REFLET_VIEW_PASS_TIMES
+    uint32_t seed = 0;                   ///< RefletViewInfo::viewIndex
+    reflet::uvec2 size{0};               ///< the largest of its frames
+    reflet::uvec2 renderSize{0};         ///< of the current or last frame
+    uint32_t steadyFrames = UINT32_MAX;  ///< frames before that one since the size changed; UINT32_MAX: it never did
+    reflet::uvec2 outputSize{0};         ///< of refletTemporal's pictures; 0: as size
     VkCommandBuffer commands = VK_NULL_HANDLE;  ///< of the current frame
     std::unique_ptr<reflet::api::ViewStore> store;
-    std::optional<reflet::api::Frame> frame;         ///< between begin and end
-    std::optional<reflet::api::Frame> last;          ///< that has ended, for refletFindImage
-    std::deque<reflet::gpu::ImageState> hostImages;  ///< of the current frame; elements stay where they are
+    std::optional<reflet::api::Frame> frame;  ///< between begin and end
+    std::optional<reflet::api::Frame> last;   ///< that has ended, for refletFindImage
+    std::deque<reflet::gpu::ImageState>
+        hostImages;  ///< of the current frame; a deque, as pointers to elements are kept
     std::optional<reflet::api::Described> described;
-    std::vector<std::string> contradictions;  ///< that the host has been told
+    std::vector<std::string> contradictions;  ///< reported to the host already
     std::string note;                         ///< for the host's log when the call ends
     float preExposure = 1.0F;                 ///< of the current or last frame
     bool composedLast = false;                ///< whether the last frame wrote ViewStore::lit

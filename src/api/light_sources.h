@@ -10,7 +10,7 @@
 
 namespace reflet::api {
 
-/// As a call was given it. Images are there until their HostImages ends.
+/// The sources as given to a call. Images are valid until their HostImages ends.
 struct SourceInputs {
     std::vector<HostProbe> probes;
     std::vector<std::byte> probeKey;  ///< what the maps of the probes depend on
@@ -24,22 +24,22 @@ struct SourceInputs {
     [[nodiscard]] bool any() const { return !probes.empty() || specular || irradiance || !planar.empty(); }
 };
 
-/// Throws Failure for what cannot be meant.
+/// Throws Failure for invalid or contradictory inputs.
 SourceInputs sourceInputs(const RefletView_T& view, const Frame& frame, const RefletIndirectLight& light,
                           HostImages& host);
 
-/// The light that refletPrepare is told of, and a probe of a light, as this library knows the structs. Throw Failure
-/// for wrong counts and sizes.
+/// The light given to refletPrepare, and a probe of a light, copied to this library's versions of the structs. Throw
+/// Failure for wrong counts and sizes.
 RefletIndirectLight preparedLight(const RefletPrepareInfo& info);
 RefletProbe probeAt(const RefletIndirectLight& light, uint32_t i);
 
-/// The environment as the stages take it; its maps are made anew when the host says that it has changed.
+/// The environment in the stages' form; its maps are rebuilt when `revision` changes.
 EnvironmentLight environmentLight(RefletView_T& view, const EnvironmentInputs& in);
 
-/// Remembers the environment of a lobe, and what a change of it means for histories.
+/// Stores the environment of a lobe, and notes a change that affects histories.
 void noteEnvironment(RefletView_T& view, uint32_t lobe, const EnvironmentInputs& in);
 
-/// What the host has for rays of a lobe that the screen does not answer.
+/// The host's sources of light for rays of a lobe that miss on the screen.
 lighting::HostLight hostLight(RefletView_T& view, Frame& frame, const Settings& settings, uint32_t lobe,
                               const SourceInputs& in);
 

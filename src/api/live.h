@@ -1,4 +1,4 @@
-// Which handles exist: calls with one that was destroyed are refused.
+// Registry of existing handles: calls with a destroyed handle are refused.
 #pragma once
 
 #include "api/calls.h"
@@ -10,7 +10,8 @@
 
 namespace reflet::api {
 
-/// The handles of one type, in this process. Calls hold what they work on, so that another thread may destroy it.
+/// The handles of one type, in this process. Calls hold a reference, so that another thread may destroy the object
+/// meanwhile.
 template <class T>
 class Live {
 public:
@@ -19,7 +20,7 @@ public:
         const T* const handle = object.get();
         all().emplace(handle, std::move(object));
     }
-    /// Nobody else gets it any more. None if it was not there.
+    /// Removes and returns the object; later calls do not find it. None if it was not registered.
     static std::shared_ptr<T> take(const T* handle) {
         const std::scoped_lock lock(mutex());
         const auto found = all().find(handle);
@@ -42,15 +43,16 @@ private:
         static auto* const one = new std::mutex;
         return *one;
     }
-    // Never destroyed: at the end of the process, what a host has left may be of a device that is gone.
+    // Never destroyed: at the end of the process, objects that a host has left may belong to a device that no longer
+    // exists.
     static std::unordered_map<const T*, std::shared_ptr<T>>& all() {
         static auto* const map = new std::unordered_map<const T*, std::shared_ptr<T>>;
         return *map;
     }
 };
 
-/// What a handle stands for, while the caller holds it. Throws Failure for NULL and for a handle that does not exist.
-/// name: of the argument.
+/// The object behind a handle, kept alive while the caller holds it. Throws Failure for NULL and for a handle that does
+/// not exist. name: of the argument.
 template <class T>
 [[nodiscard]] std::shared_ptr<T> held(const T* handle, const char* name) {
     if (handle == nullptr) {

@@ -8,7 +8,7 @@
 
 namespace reflet::api {
 
-/// The families that share what the library makes; empty: one at a time. Throws Failure.
+/// The queue families that share the library's resources; empty: exclusive ownership. Throws Failure.
 std::vector<uint32_t> queueFamiliesOf(const RefletContextInfo& info);
 
 }  // namespace reflet::api

@@ -12,7 +12,7 @@ namespace reflet::api {
 std::shared_ptr<RefletRadianceCache_T> heldCache(RefletRadianceCache handle, const RefletView_T& view);
 
 /// The frame's diffuse lobe feeds and reads a cache as long as this exists; other views that share it wait. An
-/// exception that ends it makes the cache forget all, as what it counts on may not have been recorded.
+/// exception that ends it makes the cache forget all, as passes that filled it may not have been recorded.
 class CacheUse {
 public:
     /// cache: may be none.

@@ -15,7 +15,7 @@ struct Settings : LightingSettings {
 };
 
 const SettingTable& settingTable();
-/// Of its entries, those that change what the library does. The others may be set, as presets and files have them.
+/// Entries of the table that affect the library. The others may be set, too, as presets and files contain them.
 const std::vector<SettingEntry>& listedSettings();
 
 /// Throws UsageError for a preset that the library does not have.

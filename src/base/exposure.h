@@ -5,9 +5,9 @@
 
 namespace reflet {
 
-/// The power of two that brings a typical radiance close to 1. It is `now` if the radiance is 0, and as long as that
-/// brings it to 2^-8 to 2^5, as it does for scenes that people light by eye, also at night. Above, a sun that is seen
-/// in a mirror is beyond half floats.
+/// The power of two that brings a typical radiance close to 1. Returns `now` if the radiance is 0, or if `now` brings
+/// it to 2^-8 to 2^5, the range of scenes in arbitrary units, also at night. Above that range a sun seen in a mirror
+/// exceeds half floats.
 inline float preExposureFor(float radiance, float now = 1.0F) {
     if (!(radiance > 0.0F) || !std::isfinite(radiance)) {
         return now;

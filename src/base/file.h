@@ -23,16 +23,16 @@ void writeFileAtomically(const std::filesystem::path& path, std::string_view con
 /// concurrently.
 bool writeNewFile(const std::filesystem::path& path, std::string_view content);
 
-/// Removes the temporary names of writes that are going on (not all file systems need them), for a program that ends at
-/// once. May be called by a signal handler.
+/// Removes the temporary files of writes in progress (not all file systems need them), for a program that exits
+/// immediately. May be called by a signal handler.
 void removeTemporaryFiles() noexcept;
 
 /// Ends the process at once, without destructors: for where a thread cannot be waited for. Files that threads are
 /// writing are whole or unchanged, and no temporary files are left.
 [[noreturn]] void exitNow(int status) noexcept;
 
-/// A file that gets its name when it is whole. Without commit() the target is unchanged. A target that is no regular
-/// file (/dev/null, a pipe) is written directly.
+/// Writes a file atomically: it gets its name when complete. Without commit() the target is unchanged. A target that is
+/// no regular file (/dev/null, a pipe) is written directly.
 class AtomicFile {
 public:
     /// atOnce: a temporary name, as on file systems where all files have one.

@@ -22,7 +22,7 @@ using glm::vec3;
 using glm::vec4;
 
 constexpr auto pi = glm::pi<float>();
-constexpr float largestHalf = 65504.0F;  ///< of 16-bit floats
+constexpr float largestHalf = 65504.0F;  ///< largest finite 16-bit float
 
 inline bool isFinite(const vec4& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);

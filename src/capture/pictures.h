@@ -22,7 +22,7 @@ bool isExr(const std::string& file);
 /// Adds coverage ("Y") as the alpha of premultiplied colours.
 FloatImage withAlpha(const FloatImage& colors, const FloatImage& coverage);
 
-/// Copies the share of each pixel that surfaces cover to the host.
+/// Reads back coverage: the share of each pixel that surfaces cover.
 struct CoverageReadback {
     gpu::Readback copy;
     VkFormat format = VK_FORMAT_UNDEFINED;
@@ -40,12 +40,12 @@ public:
     /// Throws UsageError for an unknown name, or for images that cannot be in one file.
     Pictures(const std::string& show, const std::vector<std::string>& aovs);
 
-    /// Sets what they need of a frame: trace_screen.count_steps, composite.layers.
+    /// Enables the settings that these images need: trace_screen.count_steps, composite.layers.
     void prepare(Settings& settings) const;
     /// Whether the image of that name is among them.
     [[nodiscard]] bool contains(std::string_view show) const;
 
-    /// Copies what they need of a frame that is being recorded; `rays`: and what rayStatistics needs.
+    /// Records read-backs of the images of a frame; `rays`: also of those that rayStatistics needs.
     void request(gpu::Frame& f, const FrameImages& images, bool rays);
 
     /// Stops of automatic exposure, without the correction; none where there is none. After the frame is done.
@@ -54,7 +54,7 @@ public:
     /// Of the rays of each lobe: mean depth samples, and the fraction of screen-space hits. After the frame is done.
     [[nodiscard]] nlohmann::ordered_json rayStatistics(const gpu::Frame& f, const ViewParams& view) const;
 
-    /// What a .png file has, after the frame is done.
+    /// The content of a .png file, after the frame is done.
     [[nodiscard]] Bitmap bitmap(const gpu::Frame& f, const ViewParams& view) const;
 
     /// Writes a .png or .exr file after the frame is done. view: posed. Throws Error.

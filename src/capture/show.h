@@ -24,10 +24,10 @@ constexpr ShowProperty operator|(ShowProperty a, ShowProperty b) {
     return static_cast<ShowProperty>(static_cast<uint8_t>(a) | static_cast<uint8_t>(b));
 }
 
-/// Where the values of a show are taken.
+/// The pixel at which the values of a show are computed.
 struct ShownPixel {
     const ViewParams& view;      ///< of the frame, perhaps without subpixel jitter
-    const ViewParams& rendered;  ///< as it was rendered, with the last frame's camera
+    const ViewParams& rendered;  ///< with the frame's jitter, and the last frame's camera
     vec2 uv;                     ///< of the pixel's centre
 };
 

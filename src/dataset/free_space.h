@@ -1,4 +1,4 @@
-// Finds random cameras in a scene's free space that see something.
+// Finds random cameras in a scene's free space with a useful view.
 #pragma once
 
 #include "dataset/draws.h"

@@ -1,4 +1,4 @@
-// Which frame shows which scene, and what the files of a data set say about it.
+// Assigns scenes to the frames of a data set, and writes its manifest and records.
 #pragma once
 
 #include "dataset/options.h"

@@ -1,5 +1,5 @@
-// The program's own way to a device: selected, checked against the minimum requirements and opened. Passes know only
-// the context that it is.
+// The program's device: selected, checked against the minimum requirements and opened. Passes use only its base class,
+// Context.
 #pragma once
 
 #include "device/pipeline_file.h"
@@ -33,7 +33,7 @@ struct DeviceOptions {
     /// Enables the validation layer with synchronization validation. Its messages go to `onMessage` and are recorded.
     bool validation = false;
     std::function<void(const std::string&)> onMessage;
-    /// That passes on this device use.
+    /// Shaders that passes on this device use.
     std::vector<std::span<const Shader>> shaders;
     /// Instance extensions that the window system needs; if there are any, the device can present to windows.
     std::vector<const char*> windowExtensions;

@@ -1,6 +1,6 @@
-// Ambient occlusion (AO) in screen space: the cosine-weighted share of directions in which nothing is near, and their
-// mean direction, the bent normal. It dims prefiltered light of environment and probes, which knows nothing of what is
-// near; never direct light, and not light of traced rays, which finds its occluders itself. Shared by C++ and GLSL.
+// Ambient occlusion (AO) in screen space: the cosine-weighted share of unoccluded directions, and their mean direction,
+// the bent normal. It attenuates prefiltered light of environment and probes, which ignores nearby occluders; never
+// direct light, and not light of traced rays, which find occluders themselves. Shared by C++ and GLSL.
 #ifndef REFLET_EFFECTS_AMBIENT_OCCLUSION_H
 #define REFLET_EFFECTS_AMBIENT_OCCLUSION_H
 
@@ -81,8 +81,8 @@ struct AoInputs {
     gpu::BufferView blueNoise;
 };
 
-/// RGBA16F: bent normal (world space, unit: mean direction of what is open), visibility: 1 nothing near, 0 all covered;
-/// 1, and no direction, in the background. None with AoMethod::none. own: as of denoise().
+/// RGBA16F: bent normal (world space, unit: mean unoccluded direction), visibility: 1 unoccluded, 0 fully occluded;
+/// visibility 1 and a zero vector in the background. None with AoMethod::none. own: as of denoise().
 gpu::Image ambientOcclusion(gpu::PassList& f, DenoiseStore* own, const AoInputs& in);
 
 /// Binds the result, which may be none, to a pass that includes ambient_visibility.glsl. scale: of the RaySurfaces

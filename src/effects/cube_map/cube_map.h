@@ -60,8 +60,8 @@ struct CubeFaces {
 /// Makes the mips of `sharp`, for these faces only.
 void makeCubeMips(gpu::PassList& f, const CubeMap& map, const CubeFaces& faces);
 
-/// Samples per texel of a lobe. `few` is for maps that only other maps are lit by: with mips that fit the samples,
-/// lobes are smooth with few as well, but wider.
+/// Samples per texel of a lobe. `few` is for maps that only light other maps: with mips matched to the sample count,
+/// lobes are smooth with few samples, too, but wider.
 enum class CubeLobeSamples : uint8_t { all, few };
 
 /// Makes all levels of `lobes`, for these faces only. Reads the mips of `sharp` of all faces of their cubes. Costs 1

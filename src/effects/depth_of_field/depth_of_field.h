@@ -4,12 +4,12 @@
 // thin-lens formula. The picture is split, at half resolution, into what is in front of the plane of focus (near) and
 // the rest (background), each with the share of the pixel that it covers and with mips. Both are gathered apart: a
 // sample counts where its own disk reaches the pixel, with a weight of one over its disk's area, so that light is kept.
-// The background is composited by distance, so that nothing sharp leaks into what is blurred behind it; where the near
-// layer hides it, it is filled from around. The near layer goes on top, with its coverage. What is in focus keeps its
-// full resolution. Highlights, far brighter than what is around them, are taken out of the layers and drawn as disks of
-// full resolution. (J. Jimenez, Next Generation Post Processing in Call of Duty: Advanced Warfare, SIGGRAPH 2014; G.
-// Abadie, A Life of a Bokeh, SIGGRAPH 2018; S. Gortler et al., The Lumigraph, 1996: pull-push; M. Potmesil, I.
-// Chakravarty, A Lens and Aperture Camera Model for Synthetic Image Generation, 1981)
+// The background is composited by distance, so that sharp surfaces do not leak into blurred ones behind them; where the
+// near layer hides it, it is inpainted from its surroundings. The near layer goes on top, with its coverage. Surfaces
+// in focus keep their full resolution. Highlights, far brighter than their surroundings, are taken out of the layers
+// and drawn as full-resolution disks. (J. Jimenez, Next Generation Post Processing in Call of Duty: Advanced Warfare,
+// SIGGRAPH 2014; G. Abadie, A Life of a Bokeh, SIGGRAPH 2018; S. Gortler et al., The Lumigraph, 1996: pull-push; M.
+// Potmesil, I. Chakravarty, A Lens and Aperture Camera Model for Synthetic Image Generation, 1981)
 #ifndef REFLET_EFFECTS_DEPTH_OF_FIELD_H
 #define REFLET_EFFECTS_DEPTH_OF_FIELD_H
 

@@ -48,9 +48,9 @@ struct DirectLights {
 /// RGBA16F, alpha 1.
 struct DirectLight {
     gpu::Image all;           ///< radiance of sun and lamps, emission and background
-    gpu::Image fromEmitters;  ///< of it, what lamps bring that stand for emissive surfaces or for the sun in
-                              ///< mirrors, but for highlights of emitters; none without these
-    gpu::Image highlights;    ///< of it, highlights of emitters; none without these
+    gpu::Image fromEmitters;  ///< part of `all`: light of lamps that represent emissive surfaces or the sun in mirrors,
+                              ///< without highlights of emitters; none without these
+    gpu::Image highlights;    ///< part of `all`: highlights of emitters; none without these
 };
 
 DirectLight directLight(gpu::PassList& f, const GBuffer& g, const LightVisibility& visibility, gpu::Image ggxTable,

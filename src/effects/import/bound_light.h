@@ -1,8 +1,8 @@
-// Bounds what a host's light may be by what it was in the last frames, so that a frame of wrong values leaves nothing
-// in histories: these hold a multiple of what was seen before, at most. Shared by C++ and GLSL.
+// Clamps a host's light to a multiple of its peaks in the last frames, so that one frame of wrong values does not stay
+// in histories. Shared by C++ and GLSL.
 //
 // peaks: the brightest luminance of each tile of 8x8 pixels, which falls slowly → limits: multiples of it. In motion
-// any tile may become as bright as the brightest; at rest light stays where it is, so that neighbours alone count.
+// any tile may become as bright as the brightest of the picture; at rest the limit depends on neighbouring tiles only.
 #ifndef REFLET_EFFECTS_BOUND_LIGHT_H
 #define REFLET_EFFECTS_BOUND_LIGHT_H
 
@@ -52,7 +52,7 @@ struct LightBound {
     bool measured = false;  ///< peaks.next has light of this frame
 };
 
-/// What a frame is to the one before.
+/// Relation of a frame to the previous one.
 struct LightBoundFrame {
     bool rests = false;           ///< nothing has changed since the last frame
     bool unbounded = false;       ///< its light may be of any luminance
@@ -61,7 +61,7 @@ struct LightBoundFrame {
 
 LightBound boundLight(gpu::PassList& f, LightBoundStore& own, uvec2 size, const LightBoundFrame& frame);
 
-/// Notes light of this frame, which the limits bound: the next frame's limits follow from it.
+/// Measures the peaks of this frame's light, clamped to the limits: they determine the next frame's limits.
 void measureLight(gpu::PassList& f, LightBound& bound, gpu::Image light);
 
 }  // namespace reflet

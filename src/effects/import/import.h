@@ -1,6 +1,6 @@
-// Import: turns a host's G-buffer and light, whatever their conventions, into the images that effects
-// read. Values that are not finite become 0, and light is bounded, so that nothing that a host draws can spread or last
-// (bound_light.h). Shared by C++ and GLSL.
+// Import: turns a host's G-buffer and light, whatever their conventions, into the images that effects read. Values that
+// are not finite become 0, and light is clamped, so that wrong values neither spread nor persist (bound_light.h).
+// Shared by C++ and GLSL.
 #ifndef REFLET_EFFECTS_IMPORT_H
 #define REFLET_EFFECTS_IMPORT_H
 
@@ -68,7 +68,7 @@ SHARED_END
 
 namespace reflet {
 
-/// What a host has, and how it means it. Images that are none have the defaults of reflet.h.
+/// A host's G-buffer and its conventions. Absent images have the defaults of reflet.h.
 struct HostSurfaces {  // NOLINT(clang-analyzer-optin.performance.Padding): in the order of reflet.h
     gpu::Image depth;
     bool reversed = true;

@@ -1,5 +1,5 @@
-// An image of a host's own light as a ray source: at each pixel what its lobe gets where rays find nothing. Shared by
-// C++ and GLSL.
+// An image of a host's own light as a ray source: at each pixel the light of its lobe for rays that miss. Shared by C++
+// and GLSL.
 #ifndef REFLET_EFFECTS_ANSWER_IMAGE_H
 #define REFLET_EFFECTS_ANSWER_IMAGE_H
 

@@ -55,7 +55,7 @@ struct LobePlan {
     bool directional = false;  ///< LobeLight::directional is computed
 };
 
-/// A lobe whose rays wait for sources that are not at hand yet.
+/// A lobe whose rays wait for sources that are not available yet.
 struct BegunLobe {
     LobePlan plan;
     Rays rays;  ///< all of the lobe's, in one batch

@@ -1,4 +1,5 @@
-// A host's own source of rays: lists the waiting rays for the host, and takes its answers. Shared by C++ and GLSL.
+// A host's own source of light for rays: lists the unresolved rays for the host, and reads its answers. Shared by C++
+// and GLSL.
 #ifndef REFLET_EFFECTS_MISSED_RAYS_H
 #define REFLET_EFFECTS_MISSED_RAYS_H
 
@@ -43,7 +44,7 @@ SHARED_END
 
 namespace reflet {
 
-/// The waiting rays of a lobe as a host reads them, and what it writes.
+/// The unresolved rays of a lobe that a host reads, and the answers that it writes.
 struct MissedRays {
     gpu::BufferView rays;     ///< header as in ray lists: groups of an indirect dispatch, count; then MissedRay
     gpu::BufferView answers;  ///< HostAnswer of each, in the same order; zero at first
@@ -54,7 +55,7 @@ struct MissedRays {
 /// frame, until releaseMissed. Throws UsageError if the device's buffers cannot hold the rays.
 MissedRays listMissed(gpu::PassList& f, const BegunLobe& begun);
 
-/// A source of rays: what the host has answered.
+/// A source of light for rays: the host's answers.
 void takeAnswers(gpu::PassList& f, Rays& rays, gpu::BufferView answers);
 
 /// To be called behind the list of finishLobe: later lists may use the memory.

@@ -107,7 +107,7 @@ struct RayItem {
     uint inFront;
 };
 
-// A ray whose march goes on, as packUnfinished (march_phases.glsl) packs it.
+// A ray whose march is not finished, as packUnfinished (march_phases.glsl) packs it.
 struct UnfinishedRay {
     RayItem ray;
     uint place;
@@ -200,12 +200,12 @@ struct LobeLight {
     gpu::Image imageMotion;
     /// RGBA16F: variation of the light with the normal (directional_light.glsl); none unless requested.
     gpu::Image directional;
-    /// RGBA16F: light that a source knows from earlier frames, wherever the camera was: mean incoming radiance,
-    /// cosine-weighted; alpha: frames that it stands for, 0: unknown. The denoiser starts from it where it has no
-    /// history. None: there is no such source.
+    /// RGBA16F: light of the radiance cache from earlier frames and other cameras: mean incoming radiance,
+    /// cosine-weighted; alpha: its history length in frames, 0: unknown. The denoiser starts from it where it has no
+    /// history. None: there is no cache.
     gpu::Image remembered;
-    /// Pixels of the picture: how far what a pixel shows is off what its light is of. Means over frames are of its
-    /// whole area, what it shows is of this frame's subpixel jitter.
+    /// Offset, in pixels of the picture, between the position that a pixel samples and the one that its light belongs
+    /// to. Temporal means belong to the pixel's whole area, the surface to this frame's subpixel jitter.
     vec2 shift{0.0F};
     bool dark = false;  ///< made by blackLobe: all black
 };

@@ -1,7 +1,7 @@
-// Slices: planes through the eye and a point, on each of which screen-space surfaces cover a range of directions. What
-// is left open, and the light of what covers it, is found in a fixed number of look-ups (Jimenez et al., Practical
-// Real-Time Strategies for Accurate Indirect Occlusion, 2016; Therrien, Levesque and Gilet, Screen Space Indirect
-// Lighting with Visibility Bitmask, 2023). Shared by C++ and GLSL.
+// Slices: planes through the eye and a point, on each of which screen-space surfaces cover a range of directions. The
+// unoccluded directions, and the light of the occluders, are found in a fixed number of look-ups (Jimenez et al.,
+// Practical Real-Time Strategies for Accurate Indirect Occlusion, 2016; Therrien, Levesque and Gilet, Screen Space
+// Indirect Lighting with Visibility Bitmask, 2023). Shared by C++ and GLSL.
 #ifndef REFLET_EFFECTS_SLICE_H
 #define REFLET_EFFECTS_SLICE_H
 

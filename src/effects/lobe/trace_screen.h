@@ -43,7 +43,7 @@ CHOICES(HitLight, HIT_LIGHTS)
     OPTION(EmittersAtHits, notHighlighted, 2)  // what they emit, but for rays with Ray.highlighted
 CHOICES(EmittersAtHits, EMITTERS_AT_HITS)
 
-// Metals that answer no rays: what they show the camera, they show no other.
+// Metals at which rays count as misses, as their reflection on screen is valid for the camera's direction only.
 #define METALS_LEFT_OUT(OPTION)       \
     OPTION(MetalsLeftOut, none, 0)    \
     OPTION(MetalsLeftOut, mirrors, 1) \
@@ -179,7 +179,7 @@ bool compactsRays(const gpu::Context& context, const TraceScreenSettings& settin
 /// The passes that march `rays` rays, by the settings and the device.
 std::vector<MarchPhase> marchPhases(gpu::PassList& f, const TraceScreenSettings& settings, VkDeviceSize rays);
 
-/// What the names of passes that go on end with.
+/// Suffix of the names of passes that continue a march.
 std::string nameOf(const MarchPhase& phase);
 
 /// Binds what march_phases.glsl declares, but for its part of the params. spare: buffers to bind in place of lists that

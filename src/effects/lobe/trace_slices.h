@@ -30,10 +30,10 @@ struct SliceTracing {
 };
 
 /// The screen of `screen` as the first source of the diffuse lobe, one slice per ray of in.params: rays.waiting are
-/// rays into what the slices leave open. The screen must be the view that in.from is picked from.
+/// rays into directions that the slices leave unoccluded. The screen must be the view that in.from is picked from.
 Rays startSlices(gpu::PassList& f, const RayGeneration& in, const ScreenSource& screen, uint32_t steps);
 
-/// The same, with the environment's light from what is left open, and averaged, all in one pass.
+/// The same in one pass, with the environment's light from unoccluded directions, and averaged.
 void slicesAtOnce(gpu::PassList& f, const LobeLight& light, const RayGeneration& in, const ScreenSource& screen,
                   uint32_t steps, const EnvironmentSource& environment);
 

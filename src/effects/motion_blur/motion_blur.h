@@ -2,15 +2,15 @@
 // depth and its motion vectors. Shared by C++ and GLSL.
 //
 // Motion is taken to be constant while the shutter is open, half of that time before the frame and half after it. A
-// surface sweeps from its place in the picture by its half streak to both sides. Tiles keep the longest half streak
-// inside, then of the tiles around. Along that one, a pixel gathers what sweeps over it: surfaces in front of it, or
-// faster ones as near, whose half streak reaches the pixel; the share of the samples that do is their coverage. Along
-// its own half streak it gathers its own surface and, past that surface's edge, what is seen behind it; where something
-// else is in front, samples do not count. Tiles without motion are copied. (M. McGuire, P. Hennessy, M. Bukowski,
-// B. Osman, A Reconstruction Filter for Plausible Motion Blur, I3D 2012: tile and neighbourhood maxima, gather by depth
-// and velocity; J.-P. Guertin, M. McGuire, D. Nowrouzezahrai, A Fast and Stable Feature-Aware Motion Blur Filter, HPG
-// 2014: two directions of samples, jittered tiles; J. Jimenez, Next Generation Post Processing in Call of Duty:
-// Advanced Warfare, SIGGRAPH 2014: the share that nothing covers is the background's)
+// surface sweeps by its half streak to both sides of its position. Tiles store the longest half streak in them, then
+// the maximum over neighbouring tiles. Along that one, a pixel gathers the surfaces that sweep over it: surfaces in
+// front of it, or faster ones as near, whose half streak reaches the pixel; the share of the samples that do is their
+// coverage. Along its own half streak it gathers its own surface and, past that surface's edge, what is seen behind it;
+// where something else is in front, samples do not count. Tiles without motion are copied. (M. McGuire, P. Hennessy, M.
+// Bukowski, B. Osman, A Reconstruction Filter for Plausible Motion Blur, I3D 2012: tile and neighbourhood maxima,
+// gather by depth and velocity; J.-P. Guertin, M. McGuire, D. Nowrouzezahrai, A Fast and Stable Feature-Aware Motion
+// Blur Filter, HPG 2014: two directions of samples, jittered tiles; J. Jimenez, Next Generation Post Processing in Call
+// of Duty: Advanced Warfare, SIGGRAPH 2014: the share that nothing covers is the background's)
 #ifndef REFLET_EFFECTS_MOTION_BLUR_H
 #define REFLET_EFFECTS_MOTION_BLUR_H
 

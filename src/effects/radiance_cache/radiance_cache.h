@@ -1,7 +1,6 @@
-// Radiance cache: the light that reaches surfaces after at least one bounce, remembered in cells of the world, on
-// screen or off. What the diffuse lobe of visible surfaces finds fills it, and what paths of scene rays find on their
-// way. Pixels without a history start from it, and paths end in it, so that they bring all bounces. Shared by C++ and
-// GLSL.
+// Radiance cache: the light that reaches surfaces after at least one bounce, stored in world-space cells, on screen or
+// off. The diffuse lobe of visible surfaces fills it, and so do the vertices of ray-traced paths. Pixels without a
+// history start from it, and paths end in it, so that they bring all bounces. Shared by C++ and GLSL.
 //
 // A cell is a cube of the world and a range of normals, in a hash table of fixed size. It holds the mean incoming
 // radiance of its surfaces, cosine-weighted: the irradiance over pi, which diffuse surfaces multiply by their albedo.
@@ -49,7 +48,7 @@ struct CacheCell {
 };
 
 struct SettleCacheParams {
-    float keep;      // share of its weight that what was known has after a frame
+    float keep;      // factor on the weight of earlier samples per frame
     uint keptSlots;  // all bits, or none: the table starts empty
     float
         unitChange;  // factor on radiance in cells, which have the pre-exposure of the last update: this one over that
@@ -89,14 +88,14 @@ struct CacheBuffers {
     explicit operator bool() const { return bool(cells); }
 };
 
-/// What the cache knows of the light that surfaces receive: LobeLight::remembered of the diffuse lobe.
+/// Looks up the light that surfaces receive in the cache: LobeLight::remembered of the diffuse lobe.
 gpu::Image rememberedLight(gpu::PassList& f, const CacheBuffers& cache, const RaySurfaces& from);
 
 /// Adds the light of a diffuse lobe, as traced in this frame, to the cells of its surfaces.
 void feedCache(gpu::PassList& f, const CacheBuffers& cache, const LobeLight& light);
 
-/// A cache: what it keeps from frame to frame. A cut need not empty it, as it does not depend on the view. Several
-/// views may feed and read it, whose lists the device executes in the order in which they were made.
+/// A cache's persistent state. A cut need not empty it, as it does not depend on the view. Several views may feed and
+/// read it, whose lists the device executes in the order in which they were made.
 class RadianceCache {
 public:
     /// Makes the table, if it was not made yet. Throws Error without memory.
@@ -115,7 +114,7 @@ private:
     bool holds_ = false;     ///< what the tables contain is defined
     uint64_t list_ = 0;      ///< that wrote them first
     uint32_t frames_ = 0;    ///< since the table was empty
-    float unrest_ = 0.0F;    ///< how much of what cells know may be of other light, 0 to 1
+    float unrest_ = 0.0F;    ///< share of the cells' light that may be outdated, 0 to 1
     float exposure_ = 1.0F;  ///< of the last frame
 };
 

@@ -1,5 +1,5 @@
-// What smooth surfaces show of other things: the depth and the motion of the reflected image, in place of the
-// surface's, where most of a pixel's light is reflected. A lens focuses on the image, and an eye follows it. Shared by
+// Virtual images in smooth surfaces: the depth and the motion of the reflected image, in place of the surface's, where
+// most of a pixel's light is reflected. A lens focuses on that image, and temporal reprojection follows it. Shared by
 // C++ and GLSL.
 //
 // A mirror shows an image at the hit distance behind it, a curved one nearer (mirror equation; E. Hecht, Optics, 5.4).
@@ -36,7 +36,7 @@ SHARED_END
 
 namespace reflet {
 
-/// What pixels reflect, of the size of the depth.
+/// Reflected light per pixel, of the size of the depth.
 struct Reflections {
     GBuffer g;
     LobeLight specular;
@@ -46,7 +46,7 @@ struct Reflections {
     bool upscaled = false;     ///< antialiasing has several pixels for one of these
 };
 
-/// What a pixel shows.
+/// Depth and motion of what a pixel shows: its surface, or a reflected image.
 struct ShownImages {
     gpu::Image depth;   ///< reversed; of the picture without reflected images: where it is not that of the G-buffer,
                         ///< something is in front of the surface, and stays

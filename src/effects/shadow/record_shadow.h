@@ -9,7 +9,7 @@
 SHARED_BEGIN
 
 // The image: (number of look-ups, visibility, penumbra width, mean blocker height), (point, 1), then for each look-up
-// (place in the world, 1: it blocks).
+// (position in world space, 1: it blocks).
 const uint recordedShadowHead = 2;
 const uint recordedShadowTexels = 600;  // further ones are counted, not stored
 
