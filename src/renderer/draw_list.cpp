@@ -5,7 +5,10 @@
 #include "scene/scene.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <limits>
 
 namespace reflet {
 
@@ -51,12 +54,46 @@ bool passes(const Draw& draw, const DrawFilter& filter) {
     return filter.keep(draw) && intersectsFrustum(draw.boundsW, filter.worldToClip);
 }
 
+// Of a surface's distance from the mesh that it stands for: far below what a bias of shadows or rays allows for.
+constexpr float mostErrorInPixels = 0.1F;
+constexpr float longestEdgeInPixels = 2.0F;
+
+// Upper bound of the length in pixels of a unit vector in object space, anywhere in the draw's bounds; infinite if the
+// bounds reach the camera.
+float pixelsPerUnit(const Draw& draw, const mat4& worldToClip, const vec2& pixels) {
+    const mat4 rows = glm::transpose(worldToClip);
+    const vec3 toW(rows[3]);
+    const vec3 nearest = glm::mix(draw.boundsW.max, draw.boundsW.min, glm::greaterThan(toW, vec3(0.0F)));
+    const float w = glm::dot(toW, nearest) + rows[3].w;
+    if (w <= 0.0F) {
+        return std::numeric_limits<float>::infinity();
+    }
+    // d(x/w) = dx/w - x/w dw/w, with |x/w| <= 1 on the screen.
+    const float across = 0.5F * std::max(pixels.x * (glm::length(vec3(rows[0])) + glm::length(toW)),
+                                         pixels.y * (glm::length(vec3(rows[1])) + glm::length(toW)));
+    const mat3 axes(draw.objectToWorld);
+    return across * std::max({glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])}) / w;
+}
+
 struct DrawConstants {
     glm::mat4x3 objectToWorld;
     glm::mat4x3 previousObjectToWorld;
 };
 
 }  // namespace
+
+const DrawLevel* levelFor(const Draw& draw, const DrawFilter& filter) {
+    if (draw.levels.empty() || filter.pixels == vec2(0.0F)) {
+        return nullptr;
+    }
+    const float scale = pixelsPerUnit(draw, filter.worldToClip, filter.pixels);
+    const auto fits = [&](const DrawLevel& level) {
+        return level.error * scale <= mostErrorInPixels &&
+               (!filter.bindMaterials || level.edge * scale <= longestEdgeInPixels);
+    };
+    const auto coarser = std::ranges::find_if_not(draw.levels, fits);
+    return coarser == draw.levels.begin() ? nullptr : &*std::prev(coarser);
+}
 
 bool anyDraws(const DrawList& list, const DrawFilter& filter) {
     return std::ranges::any_of(list.draws, [&](const Draw& draw) { return passes(draw, filter); });
@@ -96,7 +133,9 @@ void recordDraws(const gpu::DrawCommands& to, const DrawList& list, const DrawFi
         const DrawConstants constants{glm::mat4x3(draw.objectToWorld), glm::mat4x3(draw.previousObjectToWorld)};
         vk.vkCmdPushConstants(to.commands, to.layout, VK_SHADER_STAGE_ALL, 0,
                               previousTransform ? sizeof(constants) : sizeof(constants.objectToWorld), &constants);
-        vk.vkCmdDrawIndexed(to.commands, draw.indexCount, 1, draw.firstIndex, draw.firstVertex, filter.instance);
+        const DrawLevel* level = levelFor(draw, filter);
+        vk.vkCmdDrawIndexed(to.commands, level != nullptr ? level->indexCount : draw.indexCount, 1,
+                            level != nullptr ? level->firstIndex : draw.firstIndex, draw.firstVertex, filter.instance);
     }
 }
 

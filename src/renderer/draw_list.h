@@ -13,6 +13,14 @@
 
 namespace reflet {
 
+/// A version of a draw's mesh with fewer triangles, and the same vertices.
+struct DrawLevel {
+    uint32_t firstIndex = 0;
+    uint32_t indexCount = 0;
+    float error = 0.0F;  ///< distance from the mesh's surface, in object space
+    float edge = 0.0F;   ///< length of its longest edge, in object space
+};
+
 struct Draw {
     uint32_t firstIndex = 0;
     uint32_t indexCount = 0;
@@ -20,7 +28,8 @@ struct Draw {
     mat4 objectToWorld{1.0F};
     mat4 previousObjectToWorld{1.0F};
     Aabb boundsW;
-    std::span<const Aabb> pieces;  ///< bounds of its parts, in object space; empty: only boundsW is known
+    std::span<const Aabb> pieces;       ///< bounds of its parts, in object space; empty: only boundsW is known
+    std::span<const DrawLevel> levels;  ///< from fine to coarse; empty: always drawn as it is
     VkDescriptorSet material = VK_NULL_HANDLE;
     bool masked = false;               ///< has an alpha cutoff
     bool blended = false;              ///< alpha is coverage; masked, too
@@ -71,9 +80,15 @@ struct DrawFilter {
     Cull cull = Cull::back;
     bool bindMaterials = true;            ///< false if the pipeline has no descriptor set 1
     mat4 worldToClip{1.0F};               ///< for frustum culling
+    vec2 pixels{0.0F};                    ///< size of the viewport, for the level of detail; 0: the finest
     uint32_t instance = 0;                ///< the shader's gl_InstanceIndex
     std::optional<uint32_t> bothSides{};  ///< index of a draw of which Cull::back keeps the back faces
 };
+
+/// The level of detail to draw: the coarsest whose surface is less than a tenth of a pixel away from the mesh's, and,
+/// if materials are bound, whose edges are shorter than two pixels, because attributes are interpolated along them.
+/// Null: the draw itself.
+const DrawLevel* levelFor(const Draw& draw, const DrawFilter& filter);
 
 /// Whether recordDraws would record any draw.
 bool anyDraws(const DrawList& list, const DrawFilter& filter);

@@ -6,6 +6,7 @@
 #include "device/upload.h"
 #include "renderer/live/live_picture.h"
 #include "renderer/material.h"
+#include "scene/mesh_levels.h"
 #include "scene/mesh_pieces.h"
 
 #include <algorithm>
@@ -111,6 +112,7 @@ void GpuScene::uploadMeshes(const Scene& scene) {
         attributes.insert(attributes.end(), mesh.attributes.begin(), mesh.attributes.end());
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
     }
+    addLevels(scene, indices);
     addSkinned(scene, positions, attributes);
     constexpr VkBufferUsageFlags forRays = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     const VkBufferUsageFlags forSkins = skinned_.empty() ? 0U : forRays;
@@ -121,6 +123,18 @@ void GpuScene::uploadMeshes(const Scene& scene) {
     }
     attributes_ = gpu::uploadVector(device_, attributes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT | forRays, "attributes");
     indices_ = gpu::uploadVector(device_, indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT | forRays, "indices");
+}
+
+// Their indices come after those of all meshes.
+void GpuScene::addLevels(const Scene& scene, std::vector<uint32_t>& indices) {
+    for (const std::vector<MeshLevel>& made : meshLevels(scene)) {
+        std::vector<DrawLevel>& levels = levels_.emplace_back();
+        for (const MeshLevel& level : made) {
+            levels.push_back({static_cast<uint32_t>(indices.size()), static_cast<uint32_t>(level.indices.size()),
+                              level.error, level.edge});
+            indices.insert(indices.end(), level.indices.begin(), level.indices.end());
+        }
+    }
 }
 
 gpu::Image GpuScene::texture(const Scene& scene, int32_t image, bool srgb) {
@@ -289,6 +303,7 @@ void GpuScene::addDraws(const Scene& scene) {
         draw.boundsW = transformed(mesh.bounds, instance.objectToWorld);
         if (!isDeformed(instance)) {
             draw.pieces = pieces_[instance.mesh];
+            draw.levels = levels_[instance.mesh];
         }
         draw.material = materialBindings_[mesh.material].set;
         draw.masked = material.alphaCutoff > 0.0F;

@@ -87,6 +87,7 @@ private:
     void poseMaterial(const Material& material, uint32_t index);
     void addLamps(const Scene& scene, const std::function<void(const std::string&)>& warn);
     void addDraws(const Scene& scene);
+    void addLevels(const Scene& scene, std::vector<uint32_t>& indices);
     void addSkinned(const Scene& scene, std::vector<vec3>& positions, std::vector<VertexAttributes>& attributes);
     gpu::Image texture(const Scene& scene, int32_t image, bool srgb);
     // The contents of a material's descriptor set.
@@ -107,7 +108,8 @@ private:
     gpu::Buffer indices_;
     gpu::Buffer materials_;  ///< mapped if materials are animated
     std::vector<MeshRange> ranges_;
-    std::vector<std::vector<Aabb>> pieces_;  ///< meshPieces of every mesh
+    std::vector<std::vector<Aabb>> pieces_;       ///< meshPieces of every mesh
+    std::vector<std::vector<DrawLevel>> levels_;  ///< of every mesh
     SkinnedVertices skinned_;
     std::map<size_t, int32_t> skinnedFirst_;                     ///< first vertex of a deformed instance
     std::map<size_t, std::vector<Aabb>> skinnedBounds_;          ///< by joint, of a deformed instance

@@ -11,9 +11,10 @@ gpu::Image drawBackDepth(gpu::PassList& f, const DrawList& list, gpu::Image dept
         .depth(back, 0.0F)
         .vertices(vertexLayout(), list.materialLayout)
         .params(BackDepthParams{view.worldToClip, view.depthToDistance})
-        .draw([&list, withoutGlass, worldToClip = view.worldToClip](const gpu::DrawCommands& to) {
+        .draw([&list, withoutGlass, worldToClip = view.worldToClip,
+               pixels = vec2(view.size)](const gpu::DrawCommands& to) {
             const auto keep = [&](const Draw& d) { return !d.blended && !(withoutGlass && d.glass); };
-            recordDraws(to, list, {keep, Cull::front, true, worldToClip}, false);
+            recordDraws(to, list, {keep, Cull::front, true, worldToClip, pixels}, false);
         });
     return back;
 }

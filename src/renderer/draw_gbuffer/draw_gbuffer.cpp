@@ -91,7 +91,7 @@ GBuffer drawGBuffer(gpu::PassList& f, const DrawList& list, const ViewParams& vi
                                (draw.diffuseTransmission || !content.otherSide);
             return drawn && (!clipped || isInFront(draw.boundsW, clipPlane));
         };
-        recordDraws(to, list, {keep, Cull::back, true, view.worldToClip, 0, content.bothSides}, true);
+        recordDraws(to, list, {keep, Cull::back, true, view.worldToClip, vec2(view.size), 0, content.bothSides}, true);
     });
     return g;
 }

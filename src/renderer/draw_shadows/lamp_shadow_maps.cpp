@@ -145,6 +145,7 @@ mat4 reflection(const vec4& plane) {
 // Draws all opaque or all cut-out draws into the tiles in which they are visible.
 void drawTiles(const gpu::DrawCommands& to, const DrawList& list, const LampShadows& shadows,
                const LampTileParams& params, bool masked) {
+    const vec2 pixels(static_cast<float>(shadows.tileSize));
     for (uint32_t i = 0; i < shadows.count; ++i) {
         const LampShadow& shadow = shadows.lamps[i];
         const auto lit = [&](const Draw& d) {
@@ -157,11 +158,12 @@ void drawTiles(const gpu::DrawCommands& to, const DrawList& list, const LampShad
             drawIntoTile(to, uvec2(tile % shadows.columns, tile / shadows.columns), shadows.tileSize);
             const uvec2 own(tile, i);
             pushTile(to, own);
-            recordDraws(to, list, {lit, Cull::none, masked, params.worldToTile[tile]}, false);
+            recordDraws(to, list, {lit, Cull::none, masked, params.worldToTile[tile], pixels}, false);
             if (shadow.lamp.type == lampReflected) {
                 pushTile(to, own | uvec2(reflectedInTile, 0));
                 recordDraws(to, list,
-                            {lit, Cull::none, masked, params.worldToTile[tile] * reflection(params.mirror[i])}, false);
+                            {lit, Cull::none, masked, params.worldToTile[tile] * reflection(params.mirror[i]), pixels},
+                            false);
             }
         }
     }

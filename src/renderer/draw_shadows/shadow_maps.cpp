@@ -39,6 +39,7 @@ void recordSunMap(const gpu::DrawCommands& to, const DrawList& list, const SunSh
                      .cull = Cull::none,
                      .bindMaterials = bindMaterials,
                      .worldToClip = sun.maps[i].worldToShadow,
+                     .pixels = vec2(static_cast<float>(resolution)),
                      .instance = i},
                     false);
     }

@@ -22,8 +22,10 @@ GlassSurfaces glassSurfaces(gpu::PassList& f, const DrawList& list, const ViewPa
     const std::optional<uint32_t> bothSides = medium ? std::optional(medium->draw) : std::nullopt;
     const GlassDrawParams params{view, medium ? medium->kind : 0U};
     const auto record = [&](Cull cull) {
-        return [&list, worldToClip = view.worldToClip, cull, bothSides](const gpu::DrawCommands& to) {
-            const DrawFilter filter{[](const Draw& d) { return d.glass; }, cull, true, worldToClip, 0, bothSides};
+        return [&list, worldToClip = view.worldToClip, pixels = vec2(view.size), cull,
+                bothSides](const gpu::DrawCommands& to) {
+            const DrawFilter filter{
+                [](const Draw& d) { return d.glass; }, cull, true, worldToClip, pixels, 0, bothSides};
             recordDraws(to, list, filter, false);
         };
     };
