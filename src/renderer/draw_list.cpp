@@ -54,7 +54,7 @@ bool passes(const Draw& draw, const DrawFilter& filter) {
     return filter.keep(draw) && intersectsFrustum(draw.boundsW, filter.worldToClip);
 }
 
-// Of a surface's distance from the mesh that it stands for: far below what a bias of shadows or rays allows for.
+// Largest distance of a level from the mesh: far below the bias of shadows and rays.
 constexpr float mostErrorInPixels = 0.1F;
 constexpr float longestEdgeInPixels = 2.0F;
 
