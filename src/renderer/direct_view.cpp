@@ -18,6 +18,8 @@ void drawSurfaces(gpu::PassList& f, const ViewInputs& in, const Settings& settin
     GBufferContent content{.clipPlane = in.clipPlane};
     content.withoutGlass = drawsGlass(in.draws, settings.transmission, settings.materials);
     content.blendedFrom = settings.blend.layers > 0 ? opaqueAlpha : blendCutoff;
+    // Probes are filtered before use: their surfaces may be a third of a pixel off, with edges of six.
+    content.levelScale = in.forProbe ? 1.0F / 3 : 1.0F;
     out.g = drawGBuffer(f, in.draws, in.view, settings.materials, content);
     out.drawnDepth = out.g.depth;
     if (lighting::readsBackDepth(settings)) {
@@ -43,11 +45,10 @@ bool shinesThrough(const ViewInputs& in, const Settings& settings) {
 
 /// Of a face of a probe: a map of the whole scene, which all faces share, where it is as fine as the face's own. A face
 /// that sees little keeps its own, into which few things are drawn. True if `sun` and `shadow` are those of the former.
-bool sharesSunMap(const ViewInputs& in, SunShadowParams& sun, ShadowSettings& shadow) {
+bool sharesSunMap(const ViewInputs& in, SunShadowParams& sun, ShadowSettings& shadow, uint32_t resolution) {
     if (!in.forProbe || shadow.extent > 0.0F) {
         return false;
     }
-    const uint32_t resolution = 2 * shadow.resolution;
     const ShadowMapParams whole = wholeSunShadow(in.draws.boundsW, in.sunDirection, resolution);
     if (whole.texelSize > sun.maps[0].texelSize) {
         return false;
@@ -57,10 +58,17 @@ bool sharesSunMap(const ViewInputs& in, SunShadowParams& sun, ShadowSettings& sh
     return true;
 }
 
+// Four texels for each pixel of a face of a probe: more of them would not be seen.
+uint32_t ownResolution(const ViewInputs& in, const ShadowSettings& shadow) {
+    return in.forProbe ? std::min(shadow.resolution, 4 * static_cast<uint32_t>(in.view.size.x)) : shadow.resolution;
+}
+
 void drawSunMaps(gpu::PassList& f, DirectViewStore& own, const ViewInputs& in, const Settings& settings,
                  ViewImages& out) {
     ShadowSettings shadow = settings.shadow;
     shadow.filter = sunShines(in) ? shadow.filter : ShadowFilter::none;
+    const uint32_t sharedResolution = 2 * shadow.resolution;
+    shadow.resolution = ownResolution(in, shadow);
     const bool choosesCascades = shadow.filter != ShadowFilter::none && shadow.cascades == 0;
     out.sun = fitSunShadows(in.view, in.draws.boundsW, in.sunDirection, shadow,
                             filterReach(in.draws.boundsW, shadow, sunSlope(in)),
@@ -69,7 +77,7 @@ void drawSunMaps(gpu::PassList& f, DirectViewStore& own, const ViewInputs& in, c
         return;
     }
     const bool through = shinesThrough(in, settings);
-    gpu::KeptImage& map = sharesSunMap(in, out.sun, shadow) ? own.sharedShadowMap : own.shadowMap;
+    gpu::KeptImage& map = sharesSunMap(in, out.sun, shadow, sharedResolution) ? own.sharedShadowMap : own.shadowMap;
     out.shadowMap = drawShadowMap(f, map, in.draws, out.sun, shadow, through);
     if (lighting::readsShadowRange(shadow)) {
         out.shadowRange = drawShadowRange(f, own.shadowRange, out.shadowMap, in.draws, out.sun, shadow, through);

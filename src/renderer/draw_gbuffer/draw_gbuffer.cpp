@@ -91,7 +91,8 @@ GBuffer drawGBuffer(gpu::PassList& f, const DrawList& list, const ViewParams& vi
                                (draw.diffuseTransmission || !content.otherSide);
             return drawn && (!clipped || isInFront(draw.boundsW, clipPlane));
         };
-        recordDraws(to, list, {keep, Cull::back, true, view.worldToClip, vec2(view.size), 0, content.bothSides}, true);
+        const vec2 pixels = content.levelScale * vec2(view.size);
+        recordDraws(to, list, {keep, Cull::back, true, view.worldToClip, pixels, 0, content.bothSides}, true);
     });
     return g;
 }

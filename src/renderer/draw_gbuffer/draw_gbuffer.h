@@ -73,6 +73,7 @@ struct GBufferContent {
     bool otherSide = false;
     bool withoutGlass = false;            ///< transmissive surfaces do not count as opaque
     std::optional<uint32_t> bothSides{};  ///< index of a draw whose back faces are drawn, too
+    float levelScale = 1.0F;              ///< levels of detail are those of a view of this many times the pixels a side
 };
 
 /// Draws the list, which must live until the frame has ended, for the view: reversed Z, back faces of single-sided
