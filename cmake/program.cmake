@@ -3,6 +3,9 @@ find_package(CLI11 REQUIRED)
 pkg_check_modules(TINYGLTF REQUIRED IMPORTED_TARGET tinygltf)
 find_package(Draco REQUIRED)
 pkg_check_modules(OPENEXR REQUIRED IMPORTED_TARGET OpenEXR)
+pkg_check_modules(SPNG REQUIRED IMPORTED_TARGET spng)
+pkg_check_modules(JPEG REQUIRED IMPORTED_TARGET libjpeg)
+pkg_check_modules(XXHASH REQUIRED IMPORTED_TARGET libxxhash)
 pkg_check_modules(STB REQUIRED IMPORTED_TARGET stb)
 pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
 pkg_check_modules(WEBPMUX REQUIRED IMPORTED_TARGET libwebpmux libwebp)
@@ -19,16 +22,17 @@ endif()
 # Files, JSON, images.
 file(GLOB base CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} src/base/*.cpp src/base/*.h)
 list(REMOVE_ITEM base ${core})
-reflet_library_of(reflet_base "${base}" reflet_core nlohmann_json::nlohmann_json PRIVATE PkgConfig::OPENEXR PkgConfig::STB)
+reflet_library_of(reflet_base "${base}" reflet_core nlohmann_json::nlohmann_json PRIVATE PkgConfig::OPENEXR PkgConfig::SPNG
+    PkgConfig::JPEG)
 # tinygltf must be linked before draco: Debian's libdraco exports its own copy of tinygltf, which crashes if it is
 # linked instead of the real one.
-reflet_library(reflet_scene scene reflet_base PRIVATE PkgConfig::TINYGLTF Draco::Draco PkgConfig::STB PkgConfig::WEBP
-    PkgConfig::ZSTD meshoptimizer::meshoptimizer)
+reflet_library(reflet_scene scene reflet_base PRIVATE PkgConfig::TINYGLTF Draco::Draco PkgConfig::WEBP PkgConfig::ZSTD
+    meshoptimizer::meshoptimizer)
 reflet_library(reflet_reference reference reflet_scene PRIVATE embree TBB::tbb)
 target_compile_definitions(reflet_reference PRIVATE REFLET_EMBREE_MAJOR=${EMBREE_VERSION_MAJOR})
 reflet_library(reflet_compare compare reflet_base)
 # The program's way to a device: opens one, submits, waits, presents.
-reflet_library(reflet_device device reflet_gpu PUBLIC ${CMAKE_DL_LIBS})
+reflet_library(reflet_device device reflet_gpu PUBLIC ${CMAKE_DL_LIBS} PRIVATE PkgConfig::XXHASH)
 
 # The deferred renderer: draws scenes, and lights them by the stages.
 reflet_library(reflet_renderer renderer reflet_lighting reflet_device reflet_scene reflet_noise)
@@ -40,7 +44,8 @@ reflet_embed(reflet_renderer embeddedPresets ${presets})
 
 # Images of frames; what is rendered, and sequences of it; measurements; the subcommands.
 reflet_library(reflet_capture capture reflet_renderer)
-reflet_library(reflet_job job reflet_capture reflet_reference PRIVATE PkgConfig::WEBPMUX PkgConfig::STB)
+reflet_library(reflet_job job reflet_capture reflet_reference PRIVATE PkgConfig::WEBPMUX PkgConfig::XXHASH
+    PkgConfig::STB)
 include(cmake/version.cmake)
 reflet_version(reflet_job)
 reflet_library(reflet_measure measure reflet_job reflet_compare)

@@ -1,60 +1,36 @@
-// PNG and other 8-bit formats through stb, encoded and decoded in memory.
+// Files of 8 bits per channel.
 #include "base/image_file.h"
 
+#include "base/encoded_image.h"
 #include "base/error.h"
 #include "base/file.h"
-#include "base/jpeg_check.h"
 #include "base/limits.h"
 #include "base/message.h"
-#include "base/png_check.h"
 
-#include <stb/stb_image.h>
-#include <stb/stb_image_write.h>
-
-#include <limits>
-#include <memory>
-#include <new>
-#include <string_view>
+#include <span>
 
 namespace reflet {
 namespace {
 
-template <class T>
-using StbPixels = std::unique_ptr<T, decltype(&stbi_image_free)>;
-
-/// The content of a file, checked for the size limit of stb.
-struct Encoded {
-    explicit Encoded(const std::filesystem::path& path) : content(readFile(path, memoryLimit())) {
-        if (content.size() > static_cast<size_t>(std::numeric_limits<int>::max())) {
-            fail("{}: cannot be read: larger than 2 GiB", path.string());
+Bitmap decodeBitmap(std::span<const uint8_t> bytes) {
+    const EncodedImageHeader header = readImageHeader(bytes);
+    constexpr uint64_t bytesPerPixel = 16;  // RGBA of 16 bits, RGBA of 8 bits, the result
+    if (const std::string excess = imageExcess(header.width, header.height, bytesPerPixel); !excess.empty()) {
+        fail("it {}", excess);
+    }
+    Bitmap bitmap{header.width, header.height, header.channels, decodeRgba(bytes, header)};
+    if (header.channels == 4) {
+        return bitmap;
+    }
+    const bool hasAlpha = header.channels == 2;
+    auto out = bitmap.data.begin();
+    for (size_t i = 0; i < bitmap.data.size(); i += 4) {
+        for (size_t c = 0; c < header.channels; ++c) {
+            *out++ = bitmap.data[i + (hasAlpha && c == 1 ? 3 : c)];
         }
     }
-    [[nodiscard]] const stbi_uc* data() const { return reinterpret_cast<const stbi_uc*>(content.data()); }
-    [[nodiscard]] int size() const { return static_cast<int>(content.size()); }
-
-    std::string content;
-};
-
-[[noreturn]] void failDecode(const std::filesystem::path& path) {
-    const char* reason = stbi_failure_reason();  // may quote the file
-    if (reason != nullptr && std::string_view(reason) == "outofmem") {
-        throw std::bad_alloc();
-    }
-    fail("{}: cannot be read as an image: {}", path.string(), reason != nullptr ? reason : "unknown format");
-}
-
-/// stb reads more formats than these, by readers that crash or never end on broken files.
-void checkFormat(const std::filesystem::path& path, std::span<const uint8_t> bytes) {
-    if (!startsAsPng(bytes) && !startsAsJpeg(bytes)) {
-        fail("{}: cannot be read as an image: it is neither PNG nor JPEG", path.string());
-    }
-    if (const std::string problem = startsAsJpeg(bytes) ? jpegProblem(bytes) : pngProblem(bytes); !problem.empty()) {
-        fail("{}: cannot be read as an image: {}", path.string(), problem);
-    }
-}
-
-void appendToString(void* target, void* data, int size) {
-    static_cast<std::string*>(target)->append(static_cast<const char*>(data), static_cast<size_t>(size));
+    bitmap.data.resize(size_t{header.width} * header.height * header.channels);
+    return bitmap;
 }
 
 }  // namespace
@@ -64,38 +40,20 @@ void writePng(const std::filesystem::path& path, const Bitmap& bitmap) {
     REFLET_CHECK(bitmap.channels == 3 || bitmap.channels == 4, "{} channels", bitmap.channels);
     REFLET_CHECK(bitmap.width > 0 && bitmap.height > 0 && bitmap.data.size() == stride * bitmap.height,
                  "{}x{}, {} bytes", bitmap.width, bitmap.height, bitmap.data.size());
-    std::string png;
-    const int done =
-        stbi_write_png_to_func(appendToString, &png, static_cast<int>(bitmap.width), static_cast<int>(bitmap.height),
-                               static_cast<int>(bitmap.channels), bitmap.data.data(), static_cast<int>(stride));
-    if (done == 0) {
-        fail("{}: cannot be encoded as PNG: out of memory", path.string());
-    }
-    writeFileAtomically(path, png);
+    writeFileAtomically(path, encodePng(bitmap.width, bitmap.height, bitmap.channels, bitmap.data));
 }
 
 Bitmap readBitmap(const std::filesystem::path& path) {
-    const Encoded file(path);
-    int width = 0;
-    int height = 0;
-    int channels = 0;
-    checkFormat(path, {file.data(), file.content.size()});
-    if (stbi_info_from_memory(file.data(), file.size(), &width, &height, &channels) == 0) {
-        failDecode(path);
+    const std::string content = readFile(path, memoryLimit());
+    const std::span bytes(reinterpret_cast<const uint8_t*>(content.data()), content.size());
+    if (!isPng(bytes) && !isJpeg(bytes)) {
+        fail("{}: cannot be read as an image: it is neither PNG nor JPEG", path.string());
     }
-    constexpr uint64_t bytesPerPixel = 16;  // the inflated rows, two copies while channels are added, the result
-    const std::string excess = imageExcess(static_cast<uint64_t>(width), static_cast<uint64_t>(height), bytesPerPixel);
-    if (width <= 0 || height <= 0 || !excess.empty()) {
-        fail("{}: cannot be read as an image: it {}", path.string(), excess.empty() ? "has no pixels" : excess);
+    try {
+        return decodeBitmap(bytes);
+    } catch (const Error& error) {
+        fail("{}: cannot be read as an image: {}", path.string(), error.what());
     }
-    const StbPixels<stbi_uc> pixels(stbi_load_from_memory(file.data(), file.size(), &width, &height, &channels, 0),
-                                    &stbi_image_free);
-    if (!pixels) {
-        failDecode(path);
-    }
-    Bitmap bitmap{static_cast<uint32_t>(width), static_cast<uint32_t>(height), static_cast<uint32_t>(channels), {}};
-    bitmap.data.assign(pixels.get(), pixels.get() + size_t{bitmap.width} * bitmap.height * bitmap.channels);
-    return bitmap;
 }
 
 }  // namespace reflet

@@ -6,7 +6,7 @@
 #include "base/file.h"
 #include "base/image_camera.h"
 #include "base/limits.h"
-#include "base/png_check.h"
+#include "base/encoded_image.h"
 
 #include <ImathBox.h>
 #include <ImfChannelList.h>

@@ -4,6 +4,8 @@
 #include "base/error.h"
 #include "base/file.h"
 
+#include <xxhash.h>
+
 #include <cstring>
 #include <exception>
 #include <system_error>
@@ -15,18 +17,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view heading = "reflet pipelines 1\n";
+constexpr std::string_view heading = "reflet pipelines 2\n";
 constexpr size_t sumDigits = 16;
 // A cache never forgets: with more than that it begins anew.
 constexpr uint64_t mostBytes = uint64_t{256} << 20U;
 
-// FNV-1a. A damaged file must not reach the driver, which may believe what it reads.
+// A damaged file must not reach the driver, which may believe what it reads.
 std::string sumOf(std::string_view data) {
-    uint64_t sum = 0xCBF29CE484222325U;
-    for (const char c : data) {
-        sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001B3U;
-    }
-    return fmt::format("{:016x}", sum);
+    return fmt::format("{:016x}", XXH3_64bits(data.data(), data.size()));
 }
 
 std::string fileName(const VkPhysicalDeviceProperties& p) {

@@ -5,17 +5,27 @@
 #include "scene/camera_fields.h"
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include <memory>
+#include <new>
 #include <type_traits>
 
 namespace reflet {
 
-void Fingerprint::add(std::span<const std::byte> bytes) {
-    constexpr uint64_t prime = 0x100000001B3ULL;
-    for (const std::byte byte : bytes) {
-        hash_ = (hash_ ^ static_cast<uint64_t>(byte)) * prime;
+Fingerprint::Fingerprint() : state_(XXH3_createState()) {
+    if (!state_) {
+        throw std::bad_alloc();
     }
+    (void)XXH3_64bits_reset(state_.get());
+}
+
+void Fingerprint::Free::operator()(XXH3_state_s* state) const {
+    (void)XXH3_freeState(state);
+}
+
+void Fingerprint::add(std::span<const std::byte> bytes) {
+    (void)XXH3_64bits_update(state_.get(), bytes.data(), bytes.size());
 }
 
 void Fingerprint::add(std::string_view text) {
@@ -25,7 +35,7 @@ void Fingerprint::add(std::string_view text) {
 }
 
 std::string Fingerprint::text() const {
-    return fmt::format("{:016x}", hash_);
+    return fmt::format("{:016x}", XXH3_64bits_digest(state_.get()));
 }
 
 namespace {
@@ -52,6 +62,12 @@ private:
     }
 
     void add(const std::string& text) { print_.add(text); }
+
+    template <Plain T>
+    void add(const std::vector<T>& values) {
+        add(uint64_t(values.size()));
+        print_.add(std::as_bytes(std::span(values)));
+    }
 
     template <class T>
     void add(const std::vector<T>& values) {

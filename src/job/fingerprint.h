@@ -5,26 +5,34 @@
 #include "scene/scene.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 
+struct XXH3_state_s;
+
 namespace reflet {
 
-/// 64-bit FNV-1a, by G. Fowler, L. C. Noll, K.-P. Vo. Not cryptographic: it only has to detect changes.
+/// 64-bit XXH3, by Y. Collet. Not cryptographic: it only has to detect changes.
 class Fingerprint {
 public:
+    Fingerprint();
     void add(std::span<const std::byte> bytes);
     void add(std::string_view text);
     /// 16 hexadecimal digits.
     [[nodiscard]] std::string text() const;
 
 private:
-    uint64_t hash_ = 0xCBF29CE484222325ULL;
+    struct Free {
+        void operator()(XXH3_state_s* state) const;
+    };
+
+    std::unique_ptr<XXH3_state_s, Free> state_;
 };
 
 /// Changes with what is hashed below, and how: what was stored under an older one is made anew.
-constexpr uint32_t fingerprintVersion = 2;
+constexpr uint32_t fingerprintVersion = 3;
 
 /// Everything that an image of the scene can depend on, also names and cameras.
 void addTo(Fingerprint& print, const Scene& scene);

@@ -2,13 +2,18 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/image_file.h"
-#include "base/jpeg_check.h"
 #include "gltf_encoders.h"
 
 #include <gtest/gtest.h>
 #include <stb/stb_image_write.h>
 
+#include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <memory>
+#include <numeric>
+
+#include <jpeglib.h>
 
 namespace reflet::test::image_broken_test {
 namespace {
@@ -48,10 +53,6 @@ std::string jpegOf(int width, int height) {
     return jpeg;
 }
 
-std::string jpegProblemOf(const std::string& jpeg) {
-    return jpegProblem({reinterpret_cast<const uint8_t*>(jpeg.data()), jpeg.size()});
-}
-
 TEST(BrokenImage, OfAnotherFormatIsNotDecoded) {
     EXPECT_EQ(complaintOf("a.png", "GIF89a\x01\x01"), "cannot be read as an image: it is neither PNG nor JPEG");
     EXPECT_EQ(complaintOf("a.jpg", std::string("8BPS\0\1", 6)),
@@ -71,8 +72,8 @@ TEST(BrokenImage, APngChunkThatClaimsMoreThanTheFileHasTakesNoMemory) {
     const std::vector<uint8_t> bytes = pngOf(2, 2, {1, 2, 3, 4});
     std::string png(bytes.begin(), bytes.end());
     png.replace(png.find("IDAT") - 4, 4, std::string("\x3F\xFF\xFF\xFF", 4));
-    EXPECT_EQ(complaintOf("a.png", png), "cannot be read as an image: a chunk is truncated");
-    EXPECT_NE(textureComplaint(png).find("a chunk is truncated"), std::string::npos) << textureComplaint(png);
+    EXPECT_TRUE(complaintOf("a.png", png).starts_with("cannot be read as an image: ")) << complaintOf("a.png", png);
+    EXPECT_TRUE(textureComplaint(png).starts_with("images[0]: is a broken image: ")) << textureComplaint(png);
 }
 
 class BrokenExr : public ::testing::Test {
@@ -133,59 +134,71 @@ TEST(BrokenImage, APngTextureNeedsItsHeader) {
     }
 }
 
-TEST(BrokenImage, AJpegHasNotMoreScansThanWritersMake) {  // each makes stb_image visit every block
-    const std::string whole = jpegOf(8, 8);
-    const size_t start = whole.find("\xFF\xDA");
-    const std::string scan = whole.substr(start, whole.size() - 2 - start);
-    const auto withScans = [&](int count, bool progressive) {
-        std::string jpeg = whole.substr(0, start);
-        if (progressive) {
-            jpeg.at(jpeg.find("\xFF\xC0") + 1) = '\xC2';
-        }
+TEST(BrokenImage, APngWhoseBytesDoNotFitTheirChecksumIsNotDecoded) {
+    const std::vector<uint8_t> bytes = pngOf(2, 2, {1, 2, 3, 4});
+    std::string png(bytes.begin(), bytes.end());
+    png.at(png.find("IDAT") + 8) ^= 1;
+    EXPECT_TRUE(complaintOf("a.png", png).starts_with("cannot be read as an image: ")) << complaintOf("a.png", png);
+}
+
+std::string progressiveJpeg(uint32_t size) {
+    jpeg_error_mgr errors{};
+    jpeg_compress_struct jpeg{};
+    jpeg.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&jpeg);
+    unsigned char* bytes = nullptr;
+    unsigned long length = 0;
+    jpeg_mem_dest(&jpeg, &bytes, &length);
+    jpeg.image_width = size;
+    jpeg.image_height = size;
+    jpeg.input_components = 3;
+    jpeg.in_color_space = JCS_RGB;
+    jpeg_set_defaults(&jpeg);
+    jpeg_simple_progression(&jpeg);
+    jpeg_start_compress(&jpeg, TRUE);
+    std::vector<uint8_t> pixels(size_t{size} * 3);
+    std::iota(pixels.begin(), pixels.end(), uint8_t{0});
+    JSAMPROW row = pixels.data();
+    while (jpeg.next_scanline < jpeg.image_height) {
+        (void)jpeg_write_scanlines(&jpeg, &row, 1);
+    }
+    jpeg_finish_compress(&jpeg);
+    jpeg_destroy_compress(&jpeg);
+    const std::unique_ptr<unsigned char, decltype(&std::free)> owner(bytes, &std::free);
+    return {reinterpret_cast<const char*>(bytes), length};
+}
+
+TEST(BrokenImage, AJpegHasNotMoreScansThanWritersMake) {  // each makes the decoder visit every block
+    const std::string whole = progressiveJpeg(32);
+    const size_t last = whole.rfind("\xFF\xDA");
+    const std::string scan = whole.substr(last, whole.size() - 2 - last);
+    const auto withMoreScans = [&](int count) {
+        std::string jpeg = whole.substr(0, whole.size() - 2);
         for (int i = 0; i < count; ++i) {
             jpeg += scan;
         }
         return jpeg + whole.substr(whole.size() - 2);
     };
-    EXPECT_EQ(jpegProblemOf(withScans(4, false)), "");
-    EXPECT_EQ(jpegProblemOf(withScans(5, false)), "it has too many scans");
-    EXPECT_EQ(jpegProblemOf(withScans(32, true)), "");
-    EXPECT_EQ(jpegProblemOf(withScans(33, true)), "it has too many scans");
+    EXPECT_EQ(complaintOf("a.jpg", withMoreScans(0)), "");
+    EXPECT_EQ(complaintOf("a.jpg", withMoreScans(20)), "");
+    EXPECT_EQ(complaintOf("a.jpg", withMoreScans(40)), "cannot be read as an image: it has too many scans");
+    EXPECT_EQ(textureComplaint(withMoreScans(40)), "images[0]: is a broken image: it has too many scans");
 }
 
-TEST(BrokenImage, AJpegNeedsTheHuffmanTablesThatItsScansUse) {
+TEST(BrokenImage, AJpegWithoutTablesHasTheStandardOnes) {  // as frames of Motion JPEG
     const std::string whole = jpegOf(8, 8);
-    ASSERT_EQ(jpegProblemOf(whole), "");
-    EXPECT_EQ(textureComplaint(whole), "");
     std::string jpeg = whole;
     const size_t tables = jpeg.find("\xFF\xC4");
     jpeg[tables + 1] = '\xEC';  // a segment that decoders skip
-    const std::string undefined = "a scan uses a Huffman table that is not defined";
-    EXPECT_EQ(jpegProblemOf(jpeg), undefined);
-    EXPECT_EQ(complaintOf("a.jpg", jpeg), "cannot be read as an image: " + undefined);
-    EXPECT_EQ(textureComplaint(jpeg), "images[0]: is a broken image: " + undefined);
+    EXPECT_EQ(complaintOf("a.jpg", jpeg), "");
+    EXPECT_EQ(textureComplaint(jpeg), "");
 }
 
 TEST(BrokenImage, AHuffmanTableOfAJpegHasAtMost256Codes) {
     std::string jpeg = jpegOf(8, 8);
     const size_t tables = jpeg.find("\xFF\xC4") + 4;
     jpeg.replace(tables + 1, 16, std::string(16, '\x40'));
-    EXPECT_EQ(jpegProblemOf(jpeg), "a Huffman table is broken");
-}
-
-TEST(BrokenImage, AProgressiveJpegNeedsTablesOfTheKindThatAScanCodes) {
-    const std::string start("\xFF\xD8\xFF\xC2\x00\x08\x00\x00\x00\x00\x00\x00", 12);
-    const auto table = [](char kind) {
-        return std::string("\xFF\xC4\x00\x14", 4) + kind + std::string("\x01") + std::string(15, '\0') + '\x05';
-    };
-    const auto scan = [](char from) {
-        return std::string("\xFF\xDA\x00\x08\x01\x01\x00", 7) + from + std::string("\x05\0", 2);
-    };
-    EXPECT_EQ(jpegProblemOf(start + table('\x00') + scan('\x00')), "");
-    EXPECT_NE(jpegProblemOf(start + table('\x00') + scan('\x01')), "");
-    EXPECT_EQ(jpegProblemOf(start + table('\x10') + scan('\x01')), "");
-    EXPECT_NE(jpegProblemOf(start + table('\x10') + scan('\x00')), "");
-    EXPECT_NE(jpegProblemOf(start + table('\x10') + "\xFF\xDA"), "");
+    EXPECT_EQ(complaintOf("a.jpg", jpeg), "cannot be read as an image: Bogus Huffman table definition");
 }
 
 }  // namespace

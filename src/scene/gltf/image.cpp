@@ -1,6 +1,7 @@
 // Reads the bytes of an image of a glTF file and decodes them by their format.
 #include "scene/gltf/image.h"
 
+#include "base/encoded_image.h"
 #include "base/limits.h"
 #include "scene/gltf/image_formats.h"
 #include "scene/gltf/uri.h"
@@ -27,10 +28,10 @@ TextureImage decode(std::span<const uint8_t> bytes, const std::string& part, Glt
     if (isKtx2(bytes)) {
         return decodeKtx2(bytes, part, report);
     }
-    if (!isPng(bytes) && !isJpeg(bytes)) {  // stb_image supports more formats than glTF allows
+    if (!isPng(bytes) && !isJpeg(bytes)) {
         report.fail(part, "is not a PNG, JPEG, WebP or KTX 2 image");
     }
-    return decodeStb(bytes, part, report);
+    return decodePngOrJpeg(bytes, part, report);
 }
 
 std::span<const uint8_t> bytesOfView(const GltfDocument& document, int index, GltfReport& report) {

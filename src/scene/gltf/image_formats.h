@@ -11,8 +11,6 @@
 
 namespace reflet {
 
-bool isPng(std::span<const uint8_t> bytes);
-bool isJpeg(std::span<const uint8_t> bytes);
 bool isWebp(std::span<const uint8_t> bytes);
 bool isKtx2(std::span<const uint8_t> bytes);
 /// Whether a KTX 2 file holds Basis Universal data (ETC1S or UASTC), which are not decoded. The first 64 bytes are
@@ -22,8 +20,8 @@ bool isBasis(std::span<const uint8_t> bytes);
 // part: the JSON path of the image. All throw Error for broken, too large or unsupported images; those without a name
 // are returned.
 
-/// PNG and JPEG. 16 bits per channel are rounded to 8.
-TextureImage decodeStb(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report);
+/// PNG of 16 bits per channel are rounded to 8.
+TextureImage decodePngOrJpeg(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report);
 TextureImage decodeWebp(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report);
 /// The largest level of a two-dimensional texture with one to four unsigned normalized channels of 8 bits each, as it
 /// is or with Zstandard.
