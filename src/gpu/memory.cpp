@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
+#include <span>
 
 namespace reflet::gpu {
 
@@ -70,7 +71,19 @@ Memory::~Memory() {
     }
 }
 
-uint32_t Memory::chooseType(uint32_t allowed, MemoryUse use) const {
+namespace {
+
+// Others need features that are not enabled (protected, coherent for the device), or have no memory of their own.
+constexpr VkMemoryPropertyFlags usable = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
+                                         VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+
+bool has(VkMemoryPropertyFlags flags, VkMemoryPropertyFlags wish) {
+    return (flags & wish) == wish && (flags & ~usable) == 0;
+}
+
+}  // namespace
+
+Memory::Types Memory::typesFor(uint32_t allowed, MemoryUse use) const {
     constexpr VkMemoryPropertyFlags local = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
     constexpr VkMemoryPropertyFlags host = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     constexpr VkMemoryPropertyFlags cached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
@@ -80,28 +93,34 @@ uint32_t Memory::chooseType(uint32_t allowed, MemoryUse use) const {
         wanted = host | (use == MemoryUse::upload ? local : cached);
         needed = host;
     }
-    for (const VkMemoryPropertyFlags wish : {wanted, needed}) {
+    Types types;
+    for (const bool best : {true, false}) {
         for (uint32_t i = 0; i < properties_.memoryTypeCount; ++i) {
-            if (((allowed >> i) & 1U) != 0 && (properties_.memoryTypes[i].propertyFlags & wish) == wish) {
-                return i;
+            const VkMemoryPropertyFlags flags = properties_.memoryTypes[i].propertyFlags;
+            if (((allowed >> i) & 1U) != 0 && has(flags, needed) && has(flags, wanted) == best) {
+                types.indices.at(types.count++) = i;
             }
         }
     }
-    fail("the device has no memory type for this use");
+    if (types.count == 0) {
+        fail("the device has no memory type for this use");
+    }
+    return types;
 }
 
-MemoryBlock& Memory::addBlock(uint32_t type, bool linear, VkDeviceSize size) {
+MemoryBlock* Memory::addBlock(uint32_t type, bool linear, VkDeviceSize size, VkImage image) {
     auto block = std::make_unique<MemoryBlock>();
     block->holes[0] = size;
     blocks_.reserve(blocks_.size() + 1);
     VkMemoryAllocateFlagsInfo flags{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO};
     flags.flags = context_.hasRayQuery() && linear ? VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT : 0;
-    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &flags, size, type};
-    const VkResult result = context_.allocateMemory(info, &block->memory);
-    if (result != VK_SUCCESS) {
-        throw OutOfMemory(fmt::format(
-            "out of device memory: {} MiB needed in addition to {} MiB in use ({}); render at a smaller size",
-            size >> 20U, reserved_ >> 20U, resultName(result)));
+    const VkMemoryDedicatedAllocateInfo dedicated{VK_STRUCTURE_TYPE_MEMORY_DEDICATED_ALLOCATE_INFO, &flags, image,
+                                                  VK_NULL_HANDLE};
+    const void* next = image != VK_NULL_HANDLE ? static_cast<const void*>(&dedicated) : &flags;
+    const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, next, size, type};
+    lastResult_ = context_.allocateMemory(info, &block->memory);
+    if (lastResult_ != VK_SUCCESS) {
+        return nullptr;
     }
     block->type = type;
     block->linear = linear;
@@ -118,11 +137,19 @@ MemoryBlock& Memory::addBlock(uint32_t type, bool linear, VkDeviceSize size) {
     }
     reserved_ += size;
     ++context_.counts().memoryBlocks;
-    return *blocks_.emplace_back(std::move(block));
+    return blocks_.emplace_back(std::move(block)).get();
 }
 
-Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bool linear) {
-    const uint32_t type = chooseType(needs.memoryTypeBits, use);
+MemoryBlock* Memory::addBlockFor(VkDeviceSize size, uint32_t type, bool linear, VkImage image) {
+    if (size > blockSize / 2) {
+        return addBlock(type, linear, size, image);
+    }
+    MemoryBlock* block = addBlock(type, linear, blockSize, VK_NULL_HANDLE);
+    return block != nullptr ? block : addBlock(type, linear, size, VK_NULL_HANDLE);
+}
+
+Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bool linear, VkImage image) {
+    const Types types = typesFor(needs.memoryTypeBits, use);
     const std::scoped_lock lock(mutex_);
     const auto placed = [&](MemoryBlock& block, VkDeviceSize offset) {
         std::byte* mapped = block.mapped != nullptr ? block.mapped + offset : nullptr;
@@ -132,15 +159,21 @@ Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bo
         }
         return Allocation{&block, block.memory, offset, needs.size, mapped, use, account_};
     };
-    for (const auto& block : blocks_) {
-        if (block->type == type && block->linear == linear) {
-            if (const auto offset = block->take(needs.size, needs.alignment)) {
-                return placed(*block, *offset);
+    for (const uint32_t type : std::span(types.indices).first(types.count)) {
+        for (const auto& block : blocks_) {
+            if (block->type == type && block->linear == linear) {
+                if (const auto offset = block->take(needs.size, needs.alignment)) {
+                    return placed(*block, *offset);
+                }
             }
         }
+        if (MemoryBlock* block = addBlockFor(needs.size, type, linear, image)) {
+            return placed(*block, block->take(needs.size, needs.alignment).value());
+        }
     }
-    MemoryBlock& block = addBlock(type, linear, needs.size > blockSize / 2 ? needs.size : blockSize);
-    return placed(block, block.take(needs.size, needs.alignment).value());
+    throw OutOfMemory(
+        fmt::format("out of device memory: {} MiB needed in addition to {} MiB in use ({}); render at a smaller size",
+                    needs.size >> 20U, reserved_ >> 20U, resultName(lastResult_)));
 }
 
 void Memory::release(const Allocation& allocation) {

@@ -36,10 +36,10 @@ struct Allocation {
     VkDeviceSize size = 0;
     std::byte* mapped = nullptr;  ///< persistently mapped if host-visible
     MemoryUse use = MemoryUse::device;
-    std::shared_ptr<VkDeviceSize> account;  ///< that the bytes are added to
+    std::shared_ptr<VkDeviceSize> account;  ///< counter that the bytes are added to
 };
 
-/// For any thread.
+/// Thread-safe.
 class Memory {
 public:
     /// Buffers have device addresses if the context has ray query.
@@ -49,7 +49,8 @@ public:
     Memory& operator=(const Memory&) = delete;
 
     /// `linear`: for a buffer or a linear image. Throws Error if device memory is exhausted.
-    Allocation allocate(const VkMemoryRequirements& needs, MemoryUse use, bool linear);
+    /// image: optional, the image that the memory is for; a large one gets a dedicated allocation.
+    Allocation allocate(const VkMemoryRequirements& needs, MemoryUse use, bool linear, VkImage image = VK_NULL_HANDLE);
     void release(const Allocation& allocation);
 
     /// Bytes in use by resources of this kind; retired resources count until they are destroyed.
@@ -58,9 +59,9 @@ public:
         return used_[static_cast<size_t>(use)];
     }
 
-    /// Where the bytes of this thread's allocations are added up from now on, until they are released; none: nowhere.
+    /// Counts the bytes of this thread's allocations from now on, until they are released; none: not counted.
     static void setAccount(std::shared_ptr<VkDeviceSize> account) { account_ = std::move(account); }
-    /// The bytes of an account now.
+    /// Current bytes of an account.
     [[nodiscard]] VkDeviceSize read(const std::shared_ptr<VkDeviceSize>& account) const {
         const std::scoped_lock lock(mutex_);
         return *account;
@@ -73,17 +74,29 @@ public:
     }
 
 private:
-    uint32_t chooseType(uint32_t allowed, MemoryUse use) const;
-    MemoryBlock& addBlock(uint32_t type, bool linear, VkDeviceSize size);
+    struct Types {
+        std::array<uint32_t, VK_MAX_MEMORY_TYPES> indices{};
+        uint32_t count = 0;
+    };
+
+    /// Memory types that suit the use, best first. The others are used when a heap is full: 256 MiB of host-visible
+    /// device memory on GPUs without resizable BAR, or VRAM that other programs use.
+    Types typesFor(uint32_t allowed, MemoryUse use) const;
+    // Both: null if the device has no memory left (lastResult_).
+    MemoryBlock* addBlock(uint32_t type, bool linear, VkDeviceSize size, VkImage image);
+    /// A block with room for `size` bytes: of the usual size, or, for large resources or in nearly full heaps, of
+    /// exactly that size.
+    MemoryBlock* addBlockFor(VkDeviceSize size, uint32_t type, bool linear, VkImage image);
 
     static thread_local std::shared_ptr<VkDeviceSize> account_;
 
     Context& context_;
-    mutable std::mutex mutex_;  ///< of all below
+    mutable std::mutex mutex_;  ///< guards all below
     VkPhysicalDeviceMemoryProperties properties_;
     std::vector<std::unique_ptr<MemoryBlock>> blocks_;
     VkDeviceSize reserved_ = 0;  ///< bytes allocated from the device
     std::array<VkDeviceSize, 3> used_{};
+    VkResult lastResult_ = VK_SUCCESS;  ///< of the device's allocation
 };
 
 }  // namespace reflet::gpu

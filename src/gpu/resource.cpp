@@ -143,7 +143,7 @@ Texture::Texture(Context& context, const ImageInfo& info, const std::string& nam
     VkMemoryRequirements needs{};
     context.vk.vkGetImageMemoryRequirements(context.handle(), state_->image, &needs);
     state_->bytes = needs.size;
-    allocation_ = context.memory().allocate(needs, MemoryUse::device, false);
+    allocation_ = context.memory().allocate(needs, MemoryUse::device, false, state_->image);
     context.nameImage(state_->image, name);
     vkCheck(context.vk.vkBindImageMemory(context.handle(), state_->image, allocation_.memory, allocation_.offset),
             "binding image memory");

@@ -121,7 +121,7 @@ VKAPI_ATTR void VKAPI_CALL destroyImage(VkDevice /*device*/, VkImage handle, con
 }
 
 VKAPI_ATTR void VKAPI_CALL imageNeeds(VkDevice /*device*/, VkImage handle, VkMemoryRequirements* needs) {
-    *needs = {known<Image>(handle, Kind::image, "vkGetImageMemoryRequirements").bytes, alignment, 1};
+    *needs = {known<Image>(handle, Kind::image, "vkGetImageMemoryRequirements").bytes, alignment, 3};
 }
 
 void checkRange(const Memory& memory, VkDeviceSize offset, uint64_t bytes, const char* call) {
