@@ -46,8 +46,8 @@ stills() {
             LC_ALL=C awk -v scene="$scene" '/"relative_mse"/ { error = $2 + 0 } /"flip"/ { flip = $2 + 0 }
                 END { printf "| %s | %.4f | %.3f |\n", scene, error, flip }'
     done
-    printf '\nWhat is left: in cave, few frames in the time, so that fine relief is blurred;\n'
-    printf 'in lens, depth of field as an effect on the picture, where glass is in front of the focus.\n'
+    printf '\nThe remaining error: in cave, few frames fit into the time, so fine relief is blurred;\n'
+    printf 'in lens, depth of field is a post-process, which fails where glass is in front of the focal plane.\n'
 }
 
 # Error of frames at rest, down to the bias of each preset.
@@ -146,18 +146,18 @@ otherSections() {
 
 The error of the presets against a path-traced reference, and its cost, on all built-in scenes, including the cases where
 it is bad. [performance.md](performance.md) summarises this page. Made by `docs/accuracy.sh`.
-Faults that others have reported: [hard-cases.md](hard-cases.md).
+For artefacts known from other renderers, see [hard-cases.md](hard-cases.md).
 
 - **truth** (the reference, ground truth): all light, path-traced by `reflet reference`.
 - **visible-only**: the same, but scattered rays return light only from points that the camera sees, and from the
   environment. Its error against the reference, in a row of its own, is the limit of screen-space methods. A preset's error
-  against visible-only is that of the preset itself. The two need not add up: an approximation can make up for missing
-  light.
+  against visible-only is the error of its own approximations. The two errors need not add up: an approximation can make up
+  for missing light.
 - **relative MSE**: mean of (a - b)² / (b² + 0.01) over pixels and channels of linear light. **Bias**: of the mean radiance; above 0
   the image is too bright. **FLIP**: HDR-FLIP. `reflet compare --help` has all definitions.
 - **noise of the references**: the relative MSE between one run of the reference and its converged result. Smaller
   differences are not significant. FLIP includes that noise, too.
-- Each image is frame 32 of a still view: settled.
+- Each image is frame 32 of a static view, when temporal accumulation has converged.
 TEXT
     section "All bounces" out/accuracy --preset direct,fast,balanced,quality,hybrid
     echo

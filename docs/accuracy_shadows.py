@@ -132,8 +132,8 @@ make_truths()
 render("cubes", 0.53, "320x180", [], "--timings", f"{WORK}/times.json")
 print(f"""## Shadows
 
-Sun visibility against `reflet reference --bounces 0 --filter center` with the same sun disk and 256 samples. Otherwise
-the settings of `direct`: one map of 2048 × 2048 texels, a radius of 5 cm for PCF, 16 samples in PCSS's blocker search. Times on
+Sun visibility against `reflet reference --bounces 0 --filter center` with the same sun disk and 256 samples. All other
+settings are those of `direct`: one shadow map of 2048 × 2048 texels, a radius of 5 cm for PCF, 16 samples in PCSS's blocker search. Times on
 {device()}: the lowest of {ROUNDS} medians over {FRAMES - 1} frames, with the variants interleaved,
 on a machine with other load. Between two runs of these tables, times of the same row differed by up to 1.8 times in the
 first table and by up to a quarter in the last.
@@ -150,9 +150,9 @@ Relative MSE of PCSS by the resolution of the shadow map.
 """)
 resolutions()
 print("""
-At 2048 texels, 16 samples with the denoiser are about as close to the reference as 64 without it, and no closer: hardly any
-of the error is noise. A finer map removes most of it in `colonnade`. A pixel that is lit and should be dark counts a hundred
-times in relative MSE: one of 320x180 adds 0.0017, which is nearly all that `cubes` has left under the small sun.
+At 2048 texels, 16 denoised samples are about as close to the reference as 64 raw samples, and no closer: hardly any
+of the error is noise. A finer map removes most of the error in `colonnade`. A pixel that is lit and should be dark has a hundredfold
+weight in relative MSE: one pixel of 320x180 adds 0.0017, which is nearly all of the remaining error of `cubes` under the small sun.
 tests/pass/shadow_truth_test.cpp measures what the denoiser does to noise alone.
 
 ### Cost by pass

@@ -47,7 +47,7 @@ def main():
         sys.exit(f"docs/gpu.py: there is no {folder}/gpu.json; run docs/performance.sh gpu on a machine with a GPU")
     scenes = by_scene(frames["runs"])
     parts = ["# On a GPU",
-             "What frames cost on a GPU, and that they are those of the CPU device. Made by `docs/performance.sh gpu` and "
+             "The cost of frames on a GPU, and a check that their errors agree with the CPU device. Made by `docs/performance.sh gpu` and "
              "`docs/gpu.py`; the hand-written text is in `performance-notes.md`.",
              f"**{frames['device']}**, driver {frames['driver']}; {frames['bandwidth_bytes_per_s'] / 1e9:.0f} GB/s measured. "
              "Milliseconds are medians of 20 frames by the device's timestamps.",

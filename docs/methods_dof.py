@@ -93,7 +93,7 @@ def depth_of_field(page):
     rows = []
     for name, frame in [("no effect", pinhole)] + [("`dof.samples=%d`" % n, Defocus(pinhole, "dof.samples=%d" % n)) for n in (24, 48, 150)]:
         rows.append([name] + [error(frame, lens, mask) for mask in [None] + masks])
-    page.table("error", ["picture", "all", "far", "without lamps", "near", "without lamps"], rows)
+    page.table("error", ["image", "all", "far", "without lamps", "near", "without lamps"], rows)
 
     passes = {n: milliseconds("dof.samples=%d" % n) for n in (24, 48, 150)}
     names = [p for p in passes[48] if p.startswith("dof.")]

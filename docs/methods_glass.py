@@ -63,7 +63,7 @@ def glass(page):
         rows.append(["`%s`%s" % (preset, ", `%s`" % settings if settings else "")]
                     + ["%.4f" % frame.against(truth, mask=m)["relative_mse"] for m in (everywhere, single)]
                     + ["%.4f" % figures["relative_mse"], "%+.1f %%" % (100 * figures["bias"]), "%.3f" % figures["flip"]])
-    page.table("errors", ["preset", "relative MSE: pixels of glass", "of a single layer", "whole picture", "bias", "FLIP"],
+    page.table("errors", ["preset", "relative MSE: pixels of glass", "of a single layer", "whole image", "bias", "FLIP"],
                rows)
     page.picture("coat-truth", truth, COATED, 4)
     rows = []

@@ -105,8 +105,8 @@ def motion_blur(page):
                             page.commands[-1] = page.commands[-1].replace(".png", "_####.png")
             else:
                 same = reference(path, 0, seed=1)
-                rows.append([name, "0", "other samples of the reference", error(same, sharp, None), error(same, sharp, mask)])
-    header = ["camera", "shutter", "picture", "relative MSE", "where the shutter changes the picture by over 8/255"]
+                rows.append([name, "0", "reference with another seed", error(same, sharp, None), error(same, sharp, mask)])
+    header = ["camera", "shutter", "image", "relative MSE", "where the shutter changes the image by over 8/255"]
     lines = ["| %s |" % " | ".join(header), "|---|--:|---|--:|--:|"] + ["| %s |" % " | ".join(row) for row in rows]
     page.replace("table:error", "\n".join(lines))
     passes = {n: milliseconds(n) for n in (8, 16, 32)}

@@ -12,13 +12,13 @@ GHOST, LAG, FLICKER = 0.02, 4, 1.2
 
 HEAD = """# In motion
 
-Faults that come from motion: the error of frames in hard motion over that at rest, ghosts, lag and flicker, for the presets
+Artefacts caused by motion: error of frames in hard motion relative to frames at rest, ghosting, lag and flicker, for the presets
 that keep history. Made by `docs/motion.sh`; [bench.md](bench.md#hard-motion) defines the cases and the measures.
 
-How to read a row: a ratio of 1.8 means 1.8 times the error that the same views have at rest. A ghost of 5 % after 8 frames
+How to read a row: a ratio of 1.8 means 1.8 times the error of the same views at rest. A ghost of 5 % after 8 frames
 means that a pixel still shows a twentieth of the light that left it 8 frames ago. A lag of 3 means that the third frame
-after the first with the new light is within 10 % of its step, or of the error at rest. A flicker of 1.3 means that frames
-change by 30 % more than settled pictures of the same poses and the noise at rest do together. "–": the case has no such
+after the first with the new light is within 10 % of the step, or of the error at rest. A flicker of 1.3 means that frames
+change by 30 % more than converged images of the same poses and the noise at rest do together. "–": the case has no such
 event, or too few pixels. Numbers in italics miss their target.
 
 | measure | target |

@@ -207,8 +207,8 @@ def cost_and_error():
 
 def overview(folder):
     device, size, scenes, table = cost_and_error()
-    text = (f"Per preset at {size} on {device}: the median over the {scenes} built-in scenes, and in brackets the lowest and "
-            "the highest. Milliseconds are device time. The *reference* is path-traced with all bounces; "
+    text = (f"Per preset at {size} on {device}: the median over the {scenes} built-in scenes, with the lowest and highest in "
+            "brackets. Milliseconds are device time. The *reference* is path-traced with all bounces; "
             "*visible-only* is the part of it that the camera sees, the best that a screen-space method can reach. Errors are "
             "those of frame 32. Values by scene are in [accuracy.md](accuracy.md).\n\n" + table)
     if data := load(folder, "sizes"):
@@ -290,7 +290,7 @@ def main():
              section("Cost and error of the presets", overview(folder), notes),
              "## Measurements\n\nMade by `docs/performance.sh`; the hand-written text is in `performance-notes.md`. In all tables "
              "below, *submitted* is the host's time from submission to fence and *device* the time by the "
-             "device's timestamps. On llvmpipe these miss clears, copies and the start of draws, so *submitted* counts there. "
+             "device's timestamps. On llvmpipe the timestamps miss clears, copies and the start of draws, so use *submitted* there. "
              "*First* is a frame without history, *steady* the state after a warm-up. `reflet bench --help` explains the other "
              "columns; see also [bench.md](bench.md)."]
     if presets:

@@ -6,16 +6,16 @@
 
 SHARED_BEGIN
 
-// After so many frames at rest, histories hold nothing of what was before, and are not clipped any more: history clips
-// cut noise, too, and so cost energy.
+// Frames at rest after which histories hold nothing from before, and are no longer clipped: a history clip also cuts
+// noise, and so loses energy.
 const uint framesUntilSettled = 16;
 
 // Clip space is Vulkan's with reversed depth: 1 at the near plane, 0 at infinity. uv = 0.5 + 0.5 · ndc.xy.
 struct ViewParams {
     mat4 worldToClip;
     mat4 clipToWorld;
-    mat4 previousWorldToClip;  // of the last frame, with this frame's subpixel jitter; equal to worldToClip in the
-                               // first frame
+    mat4 previousWorldToClip;  // the last frame's worldToClip, with this frame's subpixel jitter; equal to worldToClip
+                               // in the first frame
     mat4 paddedClipToWorld;  // clipToWorld without jitter, padded by half a pixel: covers all that jittered frames can
                              // show. Sun shadow maps are fitted to it, so that they do not change with the jitter
     vec4 eye;                // world space: the camera's position with w = 1, or (orthographic) the direction
@@ -26,7 +26,7 @@ struct ViewParams {
     vec2 pixel;              // 1 / size
     vec2 jitterChange;  // uv: this frame's subpixel jitter minus the last frame's. The surface at uv was at uv - motion
                         // + jitterChange in the last frame's images
-    vec2 jitter;        // this frame's subpixel jitter, pixels: pixel centres show what is so far from them without it
+    vec2 jitter;        // this frame's subpixel jitter, pixels: offset of the sample from the pixel centre
     float pixelAngle;   // a pixel's height at distance 1 [m/m]; orthographic: at any distance [m]
     uint frame;         // counts up; decorrelates the noise of successive frames
     uint seed;          // random seed of the rendering

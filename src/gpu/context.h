@@ -1,4 +1,4 @@
-// A Vulkan device that is open already, by the host or by the program, and what all recording on it shares: functions,
+// A Vulkan device that the host or the program has opened, and the state shared by all recording on it: functions,
 // memory, samplers, shaders, pipelines. A context never submits, waits or touches a queue.
 #pragma once
 
@@ -27,7 +27,7 @@ struct OpenDevice {
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
     PFN_vkGetInstanceProcAddr lookUp = nullptr;
-    // Which optional features were enabled, because a device does not tell.
+    // Optional features that were enabled; Vulkan has no query for them.
     bool samplerAnisotropy = false;
     /// VK_KHR_acceleration_structure, VK_KHR_ray_query and buffer device addresses.
     bool rayQuery = false;
@@ -35,11 +35,11 @@ struct OpenDevice {
     bool debugUtils = false;
     /// Host memory of Vulkan objects; none: the driver's own.
     std::optional<VkAllocationCallbacks> allocator;
-    /// Device memory, if the host hands it out itself; both or none.
+    /// The host's own allocator of device memory; both or none.
     std::function<VkResult(const VkMemoryAllocateInfo&, VkDeviceMemory*)> allocateMemory;
     std::function<void(VkDeviceMemory)> freeMemory;
     PipelineMaking pipelines;
-    /// Families that share images and buffers; fewer than two: they belong to one at a time.
+    /// Queue families that share images and buffers (concurrent sharing); fewer than two: exclusive ownership.
     std::vector<uint32_t> queueFamilies{};
     /// shaderStorageImageWriteWithoutFormat.
     bool writesWithoutFormat = false;
@@ -53,13 +53,13 @@ struct SamplerInfo {
     VkSamplerAddressMode u = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     VkSamplerAddressMode v = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     float maxLod = VK_LOD_CLAMP_NONE;
-    float anisotropy = 1.0F;  ///< maximum anisotropy; 1: off. Clamped to what the device supports
-    float lodBias = 0.0F;     ///< added to the mip level. Clamped to what the device supports
+    float anisotropy = 1.0F;  ///< maximum anisotropy; 1: off. Clamped to the device's limit
+    float lodBias = 0.0F;     ///< added to the mip level. Clamped to the device's limit
 
     bool operator==(const SamplerInfo&) const = default;
 };
 
-/// Counts on any thread.
+/// A thread-safe counter.
 class Counter {
 public:
     Counter() = default;
@@ -79,7 +79,7 @@ private:
     std::atomic<uint64_t> value_ = 0;
 };
 
-/// How many objects a context and its recorders have made so far. In a steady state none of them grows.
+/// Number of objects that a context and its recorders have created so far. In a steady state none of them grows.
 struct ObjectCounts {
     Counter images;
     Counter buffers;
@@ -91,28 +91,28 @@ struct ObjectCounts {
     bool operator==(const ObjectCounts&) const = default;
 };
 
-/// Its functions, and those of what it owns, may be called from any thread: one per recorder.
+/// Thread-safe, including the objects that it owns. A recorder must be used by one thread at a time.
 class Context {
 public:
-    /// Throws Error that names a function that the device does not have.
+    /// Throws Error that names a function that the device lacks.
     explicit Context(const OpenDevice& open);
-    /// The device must have finished all work that was recorded.
+    /// The device must have finished all recorded work.
     ~Context();
     Context(const Context&) = delete;
     Context& operator=(const Context&) = delete;
 
     [[nodiscard]] const VkPhysicalDeviceLimits& limits() const { return limits_; }
-    /// Whether the device is a CPU: a barrier costs it nothing, and its caches hold what was written last.
+    /// Whether the device is a CPU: barriers are free, and its caches hold the last writes.
     [[nodiscard]] bool isCpu() const { return cpu_; }
     /// Whether acceleration structures can be built and queried by shaders.
     [[nodiscard]] bool hasRayQuery() const { return rayQuery_; }
     /// Alignment of the memory that building an acceleration structure needs; 0 without ray query.
     [[nodiscard]] VkDeviceSize scratchAlignment() const { return scratchAlignment_; }
-    /// Whether shaders may write images whose format they do not name.
+    /// Whether shaders may write storage images without a declared format.
     [[nodiscard]] bool writesWithoutFormat() const { return writesWithoutFormat_; }
-    /// Whether storage images of this format can be made.
+    /// Whether this format supports storage images.
     [[nodiscard]] bool storesImagesOf(VkFormat format) const;
-    /// Of VkImageCreateInfo and VkBufferCreateInfo.
+    /// Sets the sharing mode of a VkImageCreateInfo or VkBufferCreateInfo.
     template <class CreateInfo>
     void share(CreateInfo& create) const {
         if (queueFamilies_.size() > 1) {
@@ -131,21 +131,22 @@ public:
     /// Equal infos share one sampler, which lives as long as the context.
     VkSampler sampler(const SamplerInfo& info);
 
-    /// A layout of single descriptors, by binding, for all stages. Equal ones share one, which lives as long as the
-    /// context, and so the pipelines that are made with it serve one scene after another.
+    /// A layout of single descriptors, by binding, for all stages. Equal layouts share one object, which lives as long
+    /// as the context, so that pipelines created with it are reused from one scene to the next.
     VkDescriptorSetLayout setLayout(const std::vector<VkDescriptorType>& bindings);
 
     /// Announces commands that are going to be recorded and submitted; returns their serial number for finishWork.
     uint64_t beginWork();
-    /// The device has finished these commands, or they will never be submitted. Destroys what only they could use.
+    /// The device has finished these commands, or they will never be submitted. Destroys retired objects that only they
+    /// could use.
     void finishWork(uint64_t serial);
 
     /// Deferred destruction: runs `destroy` once all work that has begun is finished; at once if there is none. For
-    /// destructors: without memory to defer it, what would be destroyed stays until the device is destroyed.
+    /// destructors: if host memory is exhausted, the objects leak until the device is destroyed.
     template <class F>
     void retire(F destroy) noexcept;
 
-    /// A call has told that the device is lost: nothing that is recorded can be executed any more.
+    /// A call has returned VK_ERROR_DEVICE_LOST: no recorded commands can be executed any more.
     void noteLost() { lost_ = true; }
     [[nodiscard]] bool isLost() const { return lost_; }
 
@@ -161,7 +162,7 @@ public:
 
 private:
     struct Retired {
-        uint64_t serial;  ///< of the last work that may use it
+        uint64_t serial;  ///< serial number of the last work that may use it
         std::function<void()> destroy;
     };
 
@@ -191,7 +192,7 @@ private:
     std::unique_ptr<PipelineCache> pipelines_;
     std::vector<std::pair<SamplerInfo, VkSampler>> samplers_;
     std::vector<std::pair<std::vector<VkDescriptorType>, VkDescriptorSetLayout>> setLayouts_;
-    std::recursive_mutex mutex_;  ///< of all below, and of samplers_ and setLayouts_; destroying retires more
+    std::recursive_mutex mutex_;  ///< guards all below, samplers_ and setLayouts_; recursive: destroying retires more
     uint64_t lastSerial_ = 0;
     std::vector<uint64_t> unfinished_;  ///< ascending
     std::deque<Retired> retired_;       ///< serials ascend
@@ -206,7 +207,7 @@ void Context::retire(F destroy) noexcept {
         } else {
             retired_.push_back({lastSerial_, std::move(destroy)});
         }
-    } catch (const std::bad_alloc&) {  // the device may be using it
+    } catch (const std::bad_alloc&) {  // leaked, as the device may be using it
         return;
     }
 }

@@ -19,7 +19,7 @@ public:
     DescriptorSets(const DescriptorSets&) = delete;
     DescriptorSets& operator=(const DescriptorSets&) = delete;
 
-    /// The set of a pass in this frame. uniforms: the buffer that holds its blocks. finished: the last frame number
+    /// The set of a pass in this frame. uniforms: the buffer of its uniform blocks. finished: number of the last frame
     /// that the device has finished.
     VkDescriptorSet setOf(PassRecord& pass, const std::pair<VkBuffer, uint64_t>& uniforms, uint64_t frame,
                           uint64_t finished);
@@ -32,7 +32,7 @@ private:
 
     Context& context_;
     std::vector<VkDescriptorPool> pools_;
-    std::vector<uint64_t> key_;  ///< of the pass at hand
+    std::vector<uint64_t> key_;  ///< cache key of the current pass
     // Scratch of write().
     std::vector<VkDescriptorImageInfo> images_;
     std::vector<VkDescriptorBufferInfo> buffers_;

@@ -1,4 +1,4 @@
-// Vulkan functions of one device, in tables of its own: two devices, or two libraries in one process, do not share
+// Vulkan functions of one device, in separate tables: two devices, or two libraries in one process, do not share
 // pointers, and nothing named vk* is exported.
 #pragma once
 
@@ -6,8 +6,8 @@
 
 namespace reflet::gpu {
 
-// Those of Vulkan 1.2 and synchronization2, without ray tracing. Each is looked up by its name, then with the suffix
-// KHR.
+// Functions of Vulkan 1.2 and synchronization2, without ray tracing. Each is looked up by its name, then with the
+// suffix KHR.
 #define REFLET_DEVICE_FUNCTIONS(F)   \
     F(vkAllocateDescriptorSets)      \
     F(vkAllocateMemory)              \
@@ -66,14 +66,14 @@ namespace reflet::gpu {
     F(vkMapMemory)                   \
     F(vkUpdateDescriptorSets)
 
-// Those of raster passes, of Vulkan 1.3: null where a device has none, as effects draw nothing.
+// Functions of Vulkan 1.3 for raster passes: null where a device lacks them, as effects draw nothing.
 #define REFLET_RASTER_FUNCTIONS(F) \
     F(vkCmdBeginRendering)         \
     F(vkCmdEndRendering)           \
     F(vkCmdSetCullMode)            \
     F(vkCmdSetFrontFace)
 
-// Those of VK_KHR_acceleration_structure, and the addresses that it needs.
+// Functions of VK_KHR_acceleration_structure, and the buffer device addresses that it needs.
 #define REFLET_RAY_QUERY_FUNCTIONS(F)             \
     F(vkCmdBuildAccelerationStructuresKHR)        \
     F(vkCreateAccelerationStructureKHR)           \
@@ -90,8 +90,8 @@ struct DeviceFunctions {
 #undef REFLET_MEMBER
 };
 
-/// Loads the functions. rayQuery: those for acceleration structures, too; without, they stay null. Throws Error that
-/// names the first function that the device does not have.
+/// Loads the functions; those for acceleration structures stay null without `rayQuery`. Throws Error that names the
+/// first missing function.
 DeviceFunctions loadFunctions(PFN_vkGetDeviceProcAddr lookUp, VkDevice device, bool rayQuery);
 
 }  // namespace reflet::gpu

@@ -1,8 +1,8 @@
 // Images and buffers that effects keep from frame to frame: members of a struct that the caller owns, one for each
 // instance of the effect. Images of a single frame come from the list of passes (PassList::image).
 //
-// All are made when they are first asked for, and again when they are asked for with another format or size: from the
-// second frame of the same settings and size on, nothing is made.
+// Each is created on first request, and recreated when requested with another format or size: from the second frame
+// with the same settings and size on, nothing is created.
 #pragma once
 
 #include "gpu/resource.h"
@@ -25,22 +25,22 @@ struct History {
     bool valid = false;  ///< false: `previous` has no content (first frame, or a new size)
 };
 
-/// How the content of a history follows the size of the frames.
+/// How the content of a history is resampled when the frame size changes.
 enum class Resample : uint8_t {
-    never,         ///< another size: it starts again
-    linear,        ///< what may be averaged: radiance, moments
-    nearest,       ///< packed values, and what belongs to one surface
-    depthInRed,    ///< of packed values the nearest; but red is depth as bits of a float, which follows the surface
+    never,         ///< not resampled: another size invalidates the history
+    linear,        ///< for values that may be averaged: radiance, moments
+    nearest,       ///< for packed values, and values that belong to one surface
+    depthInRed,    ///< nearest, for packed values; but red is depth as bits of a float, which follows the surface
     depthInGreen,  ///< the same with green
 };
 
-/// Of frames that change their size and keep their histories: FrameSizes of the frame at hand.
+/// Frame sizes for dynamic resolution: histories are kept when the size changes.
 struct FrameSizes {
-    uvec2 before{0};   ///< of the last frame, in pixels
-    uvec2 now{0};      ///< of this frame
-    uvec2 largest{0};  ///< of all frames to come: histories have memory for it
-    /// Lists a pass that resamples an image for another one of the same format, with the same uv. None: histories start
-    /// again with another size.
+    uvec2 before{0};   ///< size of the last frame, in pixels
+    uvec2 now{0};      ///< size of this frame
+    uvec2 largest{0};  ///< largest size of all future frames: histories have memory for it
+    /// Lists a pass that resamples an image into another one of the same format, with the same uv. None: another size
+    /// invalidates histories.
     void (*rescale)(PassList& f, const Image& from, const Image& to, Resample resample) = nullptr;
 };
 
@@ -79,8 +79,8 @@ private:
     std::string_view name_;
     Texture texture_;
     std::vector<std::byte> contents_;  ///< key of the contents; empty: none
-    uint64_t generation_ = 0;          ///< of the list, when the contents were written
-    uint64_t list_ = 0;                ///< whose passes write them
+    uint64_t generation_ = 0;          ///< PassList::generation() when the contents were written
+    uint64_t list_ = 0;                ///< number of the list whose passes write them
 };
 
 /// A storage buffer, also usable for indirect arguments.
@@ -89,29 +89,29 @@ public:
     explicit KeptBuffer(std::string_view name) : name_(name) {}
 
     BufferView get(PassList& f, VkDeviceSize size);
-    /// Whether the buffer holds what it was written with: false once after it was made, or if the list that should have
-    /// written it was not recorded. The caller must write all of it then.
+    /// Whether the buffer has its contents: false once after creation, or if the list that should have written it was
+    /// not recorded. Then the caller must write all of it.
     bool holds(PassList& f);
 
 private:
     std::string_view name_;
     Buffer buffer_;
     bool written_ = false;
-    uint64_t list_ = 0;  ///< that writes it
+    uint64_t list_ = 0;  ///< number of the list that writes it
 };
 
-/// Two storage images that swap every frame. Their memory serves other images of the frame behind the last pass that
-/// reads `previous`, and before the first that writes `next`: after a list that has used `next`, later lists of the
-/// frame must not read `previous`.
+/// Two storage images that swap every frame. Their memory is aliased by other images of the frame after the last pass
+/// that reads `previous`, and before the first that writes `next`: after a list that has used `next`, later lists of
+/// the frame must not read `previous`.
 ///
-/// When the size of the frames changes (PassList::setSizes), what the last frame wrote is resampled into the image that
-/// would be `next`, and the two change places: no memory is needed for a third one.
+/// When the frame size changes (PassList::setSizes), the last frame's contents are resampled into the image that would
+/// be `next`, and the two change places: no memory is needed for a third image.
 class HistoryImage {  // NOLINT(bugprone-reserved-identifier): of the assignment that the compiler makes
 public:
     explicit HistoryImage(std::string_view name) : name_(name) {}
 
-    /// The same pair however often it is asked for in a frame. `previous` has no content after a frame in which it was
-    /// not asked for. resample: of histories of the frame's size, or of a share of it.
+    /// Returns the same pair on every call within a frame. `previous` has no content after a frame without a call.
+    /// resample: for histories of the frame's size, or of a fraction of it.
     History swap(PassList& f, VkFormat format, uvec2 size, Resample resample = Resample::never);
 
 private:
@@ -122,12 +122,12 @@ private:
 
     std::string_view name_;
     std::shared_ptr<HeldImage> images_[2];
-    Image from_;                ///< what was resampled last
-    uint64_t rescaleList_ = 0;  ///< whose pass does that; 0: none
+    Image from_;                ///< the image that was resampled last
+    uint64_t rescaleList_ = 0;  ///< number of the list with the resampling pass; 0: none
     uint64_t lastUse_ = 0;
     uint64_t generation_ = 0;
     uint32_t current_ = 0;
-    bool valid_ = false;  ///< in the frame of the last use
+    bool valid_ = false;  ///< History::valid in the frame of the last use
 };
 
 }  // namespace reflet::gpu

@@ -16,17 +16,17 @@ struct PassListing {
         bool raster = false;
         std::vector<std::string> reads;  ///< names of resources
         std::vector<std::string> writes;
-        uint64_t bytes = 0;  ///< size of all that it reads and writes
+        uint64_t bytes = 0;  ///< size of all resources that it reads and writes
         uint32_t level = 0;  ///< passes of one level do not depend on each other
     };
     struct Resource {
         std::string name;
-        std::string format;  ///< of an image; empty: a buffer
-        uvec2 size{0};       ///< of an image, pixels
+        std::string format;  ///< image format; empty: a buffer
+        uvec2 size{0};       ///< image size, pixels
         uint64_t bytes = 0;
         int first = -1;       ///< index of the first pass that uses it; < 0: kept from frame to frame
-        int last = -1;        ///< of the last one
-        uint64_t offset = 0;  ///< in the memory that all resources of one frame share, bytes
+        int last = -1;        ///< index of the last pass that uses it
+        uint64_t offset = 0;  ///< in the memory that all transient resources share, bytes
     };
 
     std::vector<Pass> passes;  ///< in the order in which they are recorded

@@ -22,7 +22,7 @@ namespace reflet::gpu {
 
 class PassList;
 
-/// What both kinds of pass have in common.
+/// Base of compute and raster passes.
 class Pass {
 public:
     Pass(PassList& list, PassRecord& record) : list_(&list), record_(&record) {}
@@ -31,7 +31,7 @@ protected:
     void bind(std::string_view binding, Bound bound);
     void setUniform(std::string_view binding, std::span<const std::byte> bytes);
     void setConstant(std::string_view name, uint32_t value);
-    /// Checks that everything is bound, notes all uses, and appends the pass.
+    /// Checks that everything is bound, records all resource uses, and appends the pass.
     void append();
     void use(const Image& image, const Access& access);
     void use(const BufferView& buffer, const Access& access);
@@ -45,7 +45,7 @@ private:
     void checkBound() const;
 };
 
-/// The declarations of a pass; Self is what they return.
+/// The declarations of a pass. Self: the derived class that they return (CRTP).
 template <class Self>
 class DeclaredPass : public Pass {
 public:
@@ -67,8 +67,7 @@ public:
         return bound(binding, {{}, buffer, {}, VK_NULL_HANDLE, true});
     }
 
-    /// Contents of the uniform block of that name. T must have no padding that the scalar layout of the shader would
-    /// not have.
+    /// Contents of the uniform block of that name. T must have no padding beyond that of the shader's scalar layout.
     template <class T>
     Self& params(const T& value, std::string_view binding = "params") {
         static_assert(std::is_trivially_copyable_v<T>);
@@ -113,17 +112,17 @@ public:
     using DeclaredPass::DeclaredPass;
     using DeclaredPass::read;
 
-    /// An image that the draws' own descriptor set binds.
+    /// Declares a read of an image in the draws' own descriptor set.
     RasterPass& read(Image image);
-    /// Cleared to `clear` if given; otherwise the contents are kept.
+    /// A colour attachment, cleared to `clear` if given; otherwise its contents are kept.
     RasterPass& color(std::string_view output, Image image, std::optional<VkClearColorValue> clear);
     RasterPass& depth(Image image, std::optional<float> clear);
     /// Alpha-blends colours over the contents.
     RasterPass& blend();
     /// Layout of the vertex buffers that the draws bind, and of the descriptor set (1) that they bind themselves.
     RasterPass& vertices(const VertexLayout& layout, VkDescriptorSetLayout drawSet = VK_NULL_HANDLE);
-    /// Appends the pass. `record` records the draws, with a viewport over the whole target, when the list is recorded:
-    /// what it refers to must live until the frame has ended.
+    /// Appends the pass. `record` records the draws, with a viewport over the whole target, when the list is recorded.
+    /// Everything that it refers to must live until the frame has ended.
     template <class F>
     void draw(F record) {
         record_->draw.emplace(std::move(record));

@@ -1,5 +1,5 @@
-// The passes of a frame as a list of values. Effects append to it; nothing is recorded, and no image that lives in one
-// frame only has memory, before the whole list is known (gpu/recorder.h).
+// The passes of a frame as a list of values (a frame graph). Effects append to it; nothing is recorded, and no
+// transient image has memory, before the whole list is known (gpu/recorder.h).
 #pragma once
 
 #include "gpu/images.h"
@@ -39,7 +39,7 @@ public:
     /// Overwrites the start of a buffer (a multiple of 4 bytes). The bytes are copied now.
     void update(BufferView buffer, std::span<const std::byte> bytes);
 
-    /// Later draws of this frame bind the buffer as a vertex buffer, and see what passes have written to it.
+    /// Later draws of this frame bind the buffer as a vertex buffer, and see the writes of passes.
     void readByDraws(BufferView buffer) { drawnBuffers_.push_back(buffer); }
 
     /// Fills a colour image with a value, zeros by default.
@@ -54,29 +54,29 @@ public:
     /// Copies a single-layer image for the host to read once the frame is finished.
     Readback readback(Image image);
 
-    /// Images and buffers of this frame: their contents are undefined at first, and lost after the last pass of the
-    /// list that uses them, as others get their memory. image: a storage image, also sampled; with several layers, or
+    /// Transient images and buffers: their contents are undefined at first, and lost after the last pass of the list
+    /// that uses them, as their memory is aliased. image: a storage image, also sampled; with several layers, or
     /// `array`: an array view. target: a render target (colour or depth), also sampled. buffer: a storage buffer, also
     /// for indirect arguments.
     Image image(std::string_view name, VkFormat format, uvec2 size, uint32_t layers = 1, bool array = false);
     Image target(std::string_view name, VkFormat format, uvec2 size);
     BufferView buffer(std::string_view name, VkDeviceSize size);
-    /// Keeps the contents until the next frame begins: for results of the frame. Passes that nobody needs are dropped;
-    /// what writes this is needed. May be none.
+    /// Keeps the contents until the next frame begins: for results of the frame. Passes that write a kept resource are
+    /// never culled as unused. May be none.
     void keep(Image image);
     void keep(BufferView buffer);
-    /// Whether an earlier list of the frame has written it, and it was kept.
+    /// Whether an earlier list of the frame has written the image, and it was kept.
     [[nodiscard]] bool isKept(Image image) const;
-    /// Takes that back for what an earlier list has written. May be none.
+    /// Undoes keep() for a resource that an earlier list has written. May be none.
     void release(Image image);
     void release(BufferView buffer);
 
-    /// An image whose memory others use while nobody needs its contents: for HistoryImage.
+    /// An image whose memory is aliased while its contents are not needed: for HistoryImage.
     std::shared_ptr<HeldImage> hold(const ImageInfo& info, const std::string& name) { return memory_.hold(info, name); }
-    /// Shows its memory as an image of another size. Returns false if that does not fit.
+    /// Uses its memory for an image of another size. Returns false if that does not fit.
     bool show(HeldImage& held, const ImageInfo& info) { return memory_.show(held, info, number_); }
 
-    /// An image of one texel, to bind where a shader does not use what it declares; `array`: an array view.
+    /// An image of one texel, for a binding that a shader declares but does not use.
     Image placeholder(VkFormat format, ViewKind view = ViewKind::byLayers);
 
     /// Counts frames from 1.
@@ -85,17 +85,17 @@ public:
     [[nodiscard]] uint64_t generation() const { return generation_; }
     /// Invalidates all histories, as before the first frame, and the contents of all kept images.
     void forget() { ++generation_; }
-    /// From now on: sizes of the frames whose histories go on when these change.
+    /// Sets the frame sizes from now on; histories are resampled when they change.
     void setSizes(const FrameSizes& sizes) { sizes_ = sizes; }
     [[nodiscard]] const FrameSizes& sizes() const { return sizes_; }
     /// Number of the list that passes are appended to now.
     [[nodiscard]] uint64_t listNumber() const { return list_; }
-    /// Whether the passes of that list were never recorded, so that what they should have written does not exist.
+    /// Whether the passes of that list were never recorded, so that their results do not exist.
     [[nodiscard]] bool isDiscarded(uint64_t list) const;
-    /// Says that passes of this list will write what an owner remembers as written (KeptImage::holds).
+    /// Notes that passes of this list will write contents that an owner already counts as written (KeptImage::holds).
     void promise() { promised_ = true; }
 
-    /// While it lives, names of passes get a prefix: "diffuse." + "trace_screen".
+    /// Prefixes pass names during its lifetime: "diffuse." + "trace_screen".
     class Scope {
     public:
         Scope(PassList& list, std::string_view prefix);
@@ -122,7 +122,7 @@ protected:
         ImageState state;
         ImageInfo info;
         std::string_view name;
-        uint64_t list = 0;  ///< that it was made for
+        uint64_t list = 0;  ///< number of the list that it was made for
         bool kept = false;
         TransientMemory::Needs needs;  ///< of `info`; size 0: not known yet
         VkDeviceSize offset = 0;       ///< in its heap, once its list is recorded
@@ -134,12 +134,12 @@ protected:
         uint64_t list = 0;
         bool kept = false;
         TransientMemory::Needs needs;
-        VkDeviceSize offset = 0;  ///< as of images
+        VkDeviceSize offset = 0;  ///< as in TransientImage
     };
 
     /// Starts a frame.
     void clearFrame();
-    /// Starts a list: forgets the passes. recorded: they have been.
+    /// Starts a new list without passes. recorded: the passes of the old one have been recorded.
     void nextList(bool recorded);
     [[nodiscard]] const std::vector<PassRecord*>& passes() const { return passes_; }
     TransientImage& transientOf(const ImageState& state) { return images_[static_cast<size_t>(state.transient)]; }
@@ -147,9 +147,9 @@ protected:
     [[nodiscard]] TransientMemory& memory() { return memory_; }
     [[nodiscard]] const TransientMemory& memory() const { return memory_; }
 
-    uint64_t number_ = 0;   ///< of the frame, counts from 1
+    uint64_t number_ = 0;   ///< frame number, counts from 1
     bool open_ = false;     ///< passes may be appended
-    size_t readbacks_ = 0;  ///< of this frame
+    size_t readbacks_ = 0;  ///< number of readbacks in this frame
 
 private:
     // A name with its prefix, and the records of its passes.
@@ -157,7 +157,7 @@ private:
         std::string name;
         uint32_t index = 0;
         std::vector<std::unique_ptr<PassRecord>> records;
-        size_t used = 0;  ///< in frame `frame`
+        size_t used = 0;  ///< records used in frame `frame`
         uint64_t frame = 0;
     };
     struct Hash {
@@ -170,7 +170,7 @@ private:
     PassRecord& shaderRecord(std::string_view name, PassKind kind, std::span<const std::string_view> shaders);
     void append(PassRecord& record) { passes_.push_back(&record); }
     void appendTransfer(PassRecord& record);
-    /// Fails for what lived only in an earlier list of this frame.
+    /// Throws for transient resources of an earlier list of this frame that were not kept.
     void checkUsable(const Image& image) const;
     void freePlace(const TransientMemory::Needs& needs, VkDeviceSize offset);
     void checkUsable(const BufferView& buffer) const;
@@ -185,7 +185,7 @@ private:
     uint64_t generation_ = 0;
     uint64_t frame_ = 0;  ///< counts calls of clearFrame
     uint64_t list_ = 1;
-    std::vector<uint64_t> discarded_;  ///< lists, ascending
+    std::vector<uint64_t> discarded_;  ///< numbers of lists never recorded, ascending
     bool promised_ = false;
     std::string prefix_;
     std::string fullName_;  ///< scratch of named()

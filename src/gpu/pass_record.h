@@ -1,5 +1,5 @@
-// A pass as a value in a list: everything that is needed to order, synchronize and record it. Records are used again
-// for the passes of the same name in later frames, so that a steady frame takes no memory.
+// A pass as a value in a list: everything that is needed to order, synchronize and record it. Records are reused by
+// passes of the same name in later frames, so that a steady frame allocates no memory.
 #pragma once
 
 #include "gpu/pipeline.h"
@@ -27,7 +27,7 @@ struct DrawCommands {
     VkPipelineLayout layout;
 };
 
-/// A callback of a raster pass. Small ones are held in place: std::function would take memory in every frame.
+/// A callback of a raster pass. Small ones are stored inline: std::function would allocate memory in every frame.
 class DrawCallback {
 public:
     DrawCallback() = default;
@@ -37,7 +37,7 @@ public:
 
     template <class F>
     void emplace(F callback) {
-        // Of one F clang-tidy says that half of it is redundant. NOLINTNEXTLINE(misc-redundant-expression)
+        // For one F, clang-tidy reports half of it as redundant. NOLINTNEXTLINE(misc-redundant-expression)
         if constexpr (sizeof(F) > capacity || alignof(F) > alignof(std::max_align_t)) {
             emplace([held = std::make_unique<F>(std::move(callback))](const DrawCommands& to) { (*held)(to); });
         } else {
@@ -62,7 +62,7 @@ private:
     void (*destroy_)(void*) = nullptr;
 };
 
-/// What is bound to one name.
+/// The resource bound to one name.
 struct Bound {
     Image image;
     BufferView buffer;
@@ -79,12 +79,12 @@ struct Attachment {
 
 enum class PassKind : uint8_t { compute, raster, clear, update, upload, copy, readback };
 
-/// A descriptor set with what is written in it.
+/// A descriptor set and the resources written to it.
 struct CachedSet {
     VkDescriptorSet set = VK_NULL_HANDLE;
     VkDescriptorPool pool = VK_NULL_HANDLE;
     VkDescriptorSetLayout layout = VK_NULL_HANDLE;
-    std::vector<uint64_t> key;  ///< identities of all that is bound; empty: never matches
+    std::vector<uint64_t> key;  ///< ids of all bound resources; empty: never matches
     uint64_t pipelines = 0;     ///< PipelineCache::version
     uint64_t lastUse = 0;       ///< frame number
 };
@@ -98,18 +98,18 @@ struct PassRecord {
     const ShaderInterface* interface = nullptr;
     PipelineInfo info;
     std::vector<Bound> bound;         ///< in the order of the calls
-    std::vector<uint32_t> slots;      ///< of `bound`: index of the interface's binding
-    std::vector<uint32_t> lastSlots;  ///< the same the last time: names are compared once, not searched
-    std::vector<uint32_t> boundOf;    ///< of each binding of the interface: index of `bound`
+    std::vector<uint32_t> slots;      ///< for each of `bound`: index of the interface's binding
+    std::vector<uint32_t> lastSlots;  ///< `slots` of the previous use, tried first: saves searching by name
+    std::vector<uint32_t> boundOf;    ///< for each binding of the interface: index into `bound`
     struct Uniform {
         uint32_t slot = 0;
         uint32_t offset = 0;  ///< in `bytes`
         uint32_t size = 0;
     };
     std::vector<Uniform> uniforms;
-    std::vector<std::byte> bytes;  ///< of uniform blocks, or of an update
+    std::vector<std::byte> bytes;  ///< contents of uniform blocks, or of an update
     glm::uvec3 groups{0};
-    BufferView arguments;  ///< of an indirect dispatch, with an offset; none: `groups`
+    BufferView arguments;  ///< arguments of an indirect dispatch, at argumentsOffset; none: `groups`
     VkDeviceSize argumentsOffset = 0;
     std::vector<Attachment> colors;
     Image depth;
@@ -128,15 +128,15 @@ struct PassRecord {
     std::vector<std::pair<Image, Access>> imageUses;
     std::vector<std::pair<BufferView, Access>> bufferUses;
     uint64_t boundBytes = 0;
-    bool root = false;  ///< needed, whoever reads what it writes
+    bool root = false;  ///< never culled, even if no pass reads its output
 
     // Kept from frame to frame.
-    const Pipeline* pipeline = nullptr;  ///< of madeInfo
+    const Pipeline* pipeline = nullptr;  ///< created from madeInfo
     PipelineInfo madeInfo;
-    uint64_t pipelinesVersion = UINT64_MAX;  ///< of `pipeline` and `interface`
+    uint64_t pipelinesVersion = UINT64_MAX;  ///< PipelineCache::version of `pipeline` and `interface`
     std::vector<CachedSet> sets;
 
-    /// Forgets what the last frame declared.
+    /// Clears the last frame's declarations.
     void clearDeclarations();
 };
 

@@ -13,8 +13,8 @@ namespace reflet::gpu {
 
 class Context;
 
-/// Device time of one pass in milliseconds; passes of the same name are summed. Passes that do not depend on each other
-/// run side by side on a GPU: the time of one then contains that of others.
+/// Device time of one pass in milliseconds; passes of the same name are summed. Independent passes overlap on a GPU:
+/// the time of one then includes time of others.
 struct PassTime {
     std::string name;
     double ms = 0.0;
@@ -26,7 +26,7 @@ struct PassTime {
 
 class PassTimers {
 public:
-    /// measures: else passes have labels alone, and no time.
+    /// measures: if false, passes get labels only, no times.
     PassTimers(Context& context, bool measures) : context_(context), measures_(measures) {}
 
     struct Timed {
@@ -35,7 +35,7 @@ public:
         uint64_t bytes = 0;
         bool raster = false;
     };
-    /// Of one frame in flight.
+    /// Queries of one frame in flight.
     struct Frame {
         std::vector<VkQueryPool> pools;  ///< filled in turn
         std::vector<Timed> passes;       ///< times not yet read
@@ -55,7 +55,7 @@ private:
     Context& context_;
     bool measures_;
     std::vector<uint64_t> ticks_;
-    std::vector<uint32_t> indices_;  ///< by name index: place in the times, plus 1
+    std::vector<uint32_t> indices_;  ///< by name index: index into the times, plus 1
 };
 
 }  // namespace reflet::gpu

@@ -1,5 +1,5 @@
 // Pipelines, created on first use and cached by shaders, constants and render target formats. Drivers compile when a
-// pipeline is created (some only when it is used first), so those that a frame lacks are created on several threads.
+// pipeline is created (some only on first use), so a frame's missing pipelines are created on several threads.
 #pragma once
 
 #include "gpu/shader.h"
@@ -20,7 +20,7 @@ namespace reflet::gpu {
 
 class Context;
 
-/// One vertex attribute that a draw list provides; pipelines use those that their vertex shader names.
+/// One vertex attribute that a draw list provides; a pipeline uses those that its vertex shader declares.
 struct VertexAttribute {
     std::string name;
     uint32_t buffer = 0;
@@ -33,13 +33,13 @@ struct VertexLayout {
     std::vector<VertexAttribute> attributes;
 };
 
-/// What the shaders of a pipeline expect together.
+/// Combined interface of the shaders of a pipeline.
 struct ShaderInterface {
     std::vector<std::string_view> shaders;     ///< names, as in the ShaderLibrary
-    std::vector<ShaderBinding> bindings;       ///< of set 0, of all stages, by number
+    std::vector<ShaderBinding> bindings;       ///< bindings of set 0 in all stages, by number
     std::vector<uint32_t> sameName;            ///< for each binding, the first one of its name: stages may share names
-    std::vector<std::string_view> constants;   ///< of all stages
-    std::vector<ShaderLocation> colorOutputs;  ///< of the fragment shader
+    std::vector<std::string_view> constants;   ///< specialization constants of all stages
+    std::vector<ShaderLocation> colorOutputs;  ///< outputs of the fragment shader
     VkShaderStageFlags stages = 0;
     uint32_t pushConstantSize = 0;
     glm::uvec3 localSize{1};
@@ -66,16 +66,16 @@ struct Pipeline {
 
 /// How a context creates pipelines.
 struct PipelineMaking {
-    VkPipelineCache driverCache = VK_NULL_HANDLE;  ///< of the owner of the device, or none
-    /// Without one of the owner's: makes one, with what data() gave before.
+    VkPipelineCache driverCache = VK_NULL_HANDLE;  ///< cache of the device's owner, or none
+    /// Without driverCache: creates a cache from `data`, an earlier result of data().
     bool keepsData = false;
     std::span<const std::byte> data;  ///< read by the constructor
-    uint32_t threads = 1;             ///< at most; the calling one is among them
-    /// Told the number of shaders before pipelines are created, and 0 once a frame with them has run.
+    uint32_t threads = 1;             ///< maximum number, including the calling one
+    /// Called with the number of shaders before pipelines are created, and with 0 once a frame with them has run.
     std::function<void(uint32_t shaders)> onCompile;
 };
 
-/// For any thread; while one makes pipelines, others get theirs. clear() is for the only one.
+/// Thread-safe; get() works while another thread creates pipelines. Only clear() needs exclusive access.
 class PipelineCache {
 public:
     PipelineCache(Context& context, PipelineMaking making);
@@ -83,11 +83,12 @@ public:
     PipelineCache(const PipelineCache&) = delete;
     PipelineCache& operator=(const PipelineCache&) = delete;
 
-    /// What these shaders expect; valid until clear(). Throws std::logic_error: an unknown shader, or stages with
-    /// conflicting bindings.
+    /// The combined interface of these shaders; valid until clear(). Throws std::logic_error: an unknown shader, or
+    /// stages with conflicting bindings.
     const ShaderInterface& interfaceOf(std::span<const std::string_view> shaders);
 
-    /// Throws std::logic_error: an unknown shader, or stages with conflicting bindings. The info's constants are known.
+    /// Throws std::logic_error: an unknown shader, or stages with conflicting bindings. The shaders must have all of
+    /// the info's constants.
     const Pipeline& get(const PipelineInfo& info);
 
     [[nodiscard]] bool has(const PipelineInfo& info) const {
@@ -95,18 +96,18 @@ public:
         return pipelines_.contains(info);
     }
 
-    /// Creates pipelines, all different and none of which it has, on as many threads as the context allows. If some
-    /// cannot be created, it has the others, and throws as get() does.
+    /// Creates pipelines, all different and not yet cached, on as many threads as the context allows. If some cannot be
+    /// created, it caches the others, and throws as get() does.
     void make(std::span<const PipelineInfo> missing);
-    /// Whether data() can be asked: PipelineMaking::keepsData.
+    /// Whether data() may be called: PipelineMaking::keepsData.
     [[nodiscard]] bool keepsData() const { return own_ != VK_NULL_HANDLE; }
-    /// What the driver keeps of the pipelines so far.
+    /// Data of the Vulkan pipeline cache, for the pipelines created so far.
     [[nodiscard]] std::vector<std::byte> data() const;
 
     /// A frame that uses the pipelines created so far has run.
     void noteUsed();
 
-    /// Forgets all pipelines, because shaders have changed.
+    /// Removes all pipelines, because shaders have changed.
     void clear();
     /// Counts calls of clear().
     [[nodiscard]] uint64_t version() const { return version_; }
@@ -115,8 +116,8 @@ private:
     Context& context_;
     PipelineMaking making_;
     VkPipelineCache own_ = VK_NULL_HANDLE;
-    mutable std::mutex mutex_;            ///< of the maps
-    std::atomic<bool> compiles_ = false;  ///< since the last noteUsed()
+    mutable std::mutex mutex_;            ///< guards the maps
+    std::atomic<bool> compiles_ = false;  ///< whether pipelines were created since the last noteUsed()
     uint64_t version_ = 0;
     std::map<std::vector<std::string_view>, std::unique_ptr<ShaderInterface>> interfaces_;
     std::map<PipelineInfo, std::unique_ptr<Pipeline>> pipelines_;

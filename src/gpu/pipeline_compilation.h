@@ -12,7 +12,7 @@ namespace reflet::gpu {
 /// Destroys the pipeline's Vulkan objects, which no pending command may use.
 void destroyPipeline(Context& context, const Pipeline& pipeline);
 
-/// A pipeline while it is compiled: its objects are destroyed with this unless take() was called.
+/// A pipeline being compiled; destroys its objects unless take() was called.
 class PipelineCompilation {
 public:
     /// The info must outlive this. Throws std::logic_error: an unknown shader; Error: Vulkan refuses a layout.
@@ -21,7 +21,7 @@ public:
     PipelineCompilation(const PipelineCompilation&) = delete;
     PipelineCompilation& operator=(const PipelineCompilation&) = delete;
 
-    /// On any thread. What it would throw is kept in failure().
+    /// May run on any thread. Exceptions are stored in failure().
     void compile(VkPipelineCache cache) noexcept;
 
     [[nodiscard]] const PipelineInfo& info() const { return info_; }

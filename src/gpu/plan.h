@@ -1,9 +1,9 @@
-// What a list of passes becomes before it is recorded, as a function of plain values: which passes are needed, in which
-// order, what shares memory, and where barriers stand. Nothing here knows a device.
+// Compiles a frame graph before it is recorded, as a function of plain values: culls unused passes, orders the others,
+// aliases memory, and places barriers. Independent of any device.
 //
-// The idea of a frame as a function whose intermediate images are placed afterwards: Y. O'Donnell, FrameGraph (GDC
-// 2017). Barriers: each hazard is an interval of positions that one of them must stand in; putting each as late as its
-// first hazard allows needs the fewest (stabbing of intervals, greedy).
+// Frame graph with transient resources placed afterwards: Y. O'Donnell, FrameGraph (GDC 2017). Barriers: each hazard is
+// an interval of positions, one of which needs a barrier; placing each barrier as late as the first open hazard allows
+// needs the fewest (greedy interval stabbing).
 #pragma once
 
 #include "gpu/resource.h"
@@ -22,7 +22,7 @@ struct Access {
     bool operator==(const Access&) const = default;
 };
 
-/// Both by one pass.
+/// Both accesses by one pass.
 Access merged(const Access& a, const Access& b);
 
 struct ResourceUse {
@@ -35,29 +35,29 @@ struct ResourceUse {
 struct GraphPass {
     uint32_t firstUse = 0;  ///< in PassGraph::uses
     uint32_t useCount = 0;
-    bool root = false;  ///< needed, whoever reads what it writes: read-backs
+    bool root = false;  ///< never culled, even if no pass reads its output: read-backs
 
     bool operator==(const GraphPass&) const = default;
 };
 
-/// When the memory of something that is kept from frame to frame is free for what lives in one frame.
+/// When the memory of a resource that is kept from frame to frame is free for transient resources.
 enum class HeldUse : uint8_t {
     busy,       ///< never
-    untilLast,  ///< behind its last use in the list: nobody reads it again
+    untilLast,  ///< after its last use in the list: no one reads it again
     fromFirst,  ///< before its first use, which overwrites it
 };
 
 struct GraphResource {
-    bool transient = false;   ///< its contents do not come from before the list, and it has no memory yet
+    bool transient = false;   ///< it has no contents from before the list, and no memory yet
     bool output = false;      ///< transient: its contents are read after the list
     bool image = false;       ///< has a layout
-    bool undefined = false;   ///< not transient: an image that is in no layout, or whose memory others have used
+    bool undefined = false;   ///< not transient: an image in the undefined layout, or whose memory others have used
     bool held = false;        ///< not transient: it lies in a heap, at one of GraphHeap::held
     uint32_t heap = 0;        ///< transient or held: index of PassGraph::heaps
     VkDeviceSize offset = 0;  ///< held: in the heap
     VkDeviceSize size = 0;    ///< transient or held
     VkDeviceSize alignment = 1;
-    AccessState before;  ///< not transient: what its first use must wait for
+    AccessState before;  ///< not transient: the state that its first use must wait for
 
     bool operator==(const GraphResource&) const = default;
 };
@@ -69,32 +69,32 @@ struct MemoryRange {
     bool operator==(const MemoryRange&) const = default;
 };
 
-/// Memory of something that is kept, but that others may use in part of the list.
+/// Memory of a resource that is kept from frame to frame, but that others may use in part of the list.
 struct HeldRange {
     static constexpr uint32_t unused = UINT32_MAX;
 
     MemoryRange range;
     HeldUse use = HeldUse::busy;
-    uint32_t resource = unused;  ///< index of PassGraph::resources; unused: the list does not use it. It is free then
-                                 ///< unless it is busy, but with fromFirst not for outputs: a later list writes it
+    uint32_t resource = unused;  ///< index of PassGraph::resources; unused: the list does not use it. Then the memory
+                                 ///< is free unless busy; with fromFirst not for outputs, as a later list writes it
 
     bool operator==(const HeldRange&) const = default;
 };
 
-/// Memory that transient resources are placed in: blocks, one after another in one space of offsets, in which nothing
-/// lies across two blocks. Behind the last one is room without end, for a block that will be made.
+/// Memory that transient resources are placed in: consecutive blocks in one space of offsets. No resource crosses a
+/// block boundary. After the last block there is unlimited space, for a block still to be allocated.
 struct GraphHeap {
-    std::vector<VkDeviceSize> blocks;  ///< their sizes
-    std::vector<MemoryRange> taken;    ///< by outputs of earlier lists of the frame
+    std::vector<VkDeviceSize> blocks;  ///< sizes of the blocks
+    std::vector<MemoryRange> taken;    ///< occupied by outputs of earlier lists of the frame
     std::vector<HeldRange> held;
-    Access before;  ///< by what was in this memory before; write: its access has writes
+    Access before;  ///< access by earlier users of this memory; write: it has writes
 
     bool operator==(const GraphHeap&) const = default;
 };
 
 enum class PassOrder : uint8_t {
-    byLevel,   ///< passes that need not wait for each other stand together: fewest barriers. For GPUs
-    asListed,  ///< what a pass reads is still in the caches of a CPU, to which a barrier costs nothing
+    byLevel,   ///< groups independent passes: fewest barriers. For GPUs
+    asListed,  ///< keeps a pass's inputs in the cache. For CPUs, where barriers cost nothing
 };
 
 struct PassGraph {
@@ -107,7 +107,7 @@ struct PassGraph {
     bool operator==(const PassGraph&) const = default;
 };
 
-/// The change of an image from no layout to GENERAL, with its first use.
+/// Layout transition of an image from UNDEFINED to GENERAL, at its first use.
 struct Transition {
     uint32_t resource = 0;
     Access from;
@@ -131,14 +131,14 @@ struct Lifetime {
 struct Plan {
     static constexpr VkDeviceSize unplaced = ~VkDeviceSize(0);
 
-    std::vector<uint32_t> order;   ///< the passes that are needed
-    std::vector<uint32_t> levels;  ///< of these: passes of one level share no memory. By level: the most dependencies
-                                   ///< in a row before each; as listed: one for each pass
+    std::vector<uint32_t> order;   ///< the passes that are not culled
+    std::vector<uint32_t> levels;  ///< level of each pass in `order`: passes of one level share no memory. byLevel:
+                                   ///< length of the longest dependency chain before it; asListed: one for each pass
     std::vector<PlannedBarrier> barriers;
     std::vector<Lifetime> lifetimes;    ///< of each resource
-    std::vector<VkDeviceSize> offsets;  ///< of each resource in its heap; unplaced: not transient, or not needed
-    std::vector<AccessState> after;     ///< of each resource
-    std::vector<VkDeviceSize> ends;     ///< of each heap: the end of what is placed in it by this list
+    std::vector<VkDeviceSize> offsets;  ///< of each resource in its heap; unplaced: not transient, or not used
+    std::vector<AccessState> after;     ///< state of each resource after the list
+    std::vector<VkDeviceSize> ends;     ///< for each heap: the end of the placements by this list
 };
 
 /// Throws std::logic_error for uses of resources that do not exist.

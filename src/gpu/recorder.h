@@ -1,6 +1,5 @@
-// Records the passes of a frame into a command buffer that it is given: plans the list (gpu/plan.h), gives memory to
-// what lives in one frame, binds resources, sets barriers, and times every pass on the device. It never submits or
-// waits.
+// Records the passes of a frame into a given command buffer: plans the list (gpu/plan.h), allocates transient
+// resources, binds descriptors, sets barriers, and times every pass on the device. It never submits or waits.
 #pragma once
 
 #include "gpu/descriptor_sets.h"
@@ -22,13 +21,13 @@
 
 namespace reflet::gpu {
 
-/// What recording a frame took.
+/// Cost of recording a frame.
 struct RecordingCounts {
-    double ms = 0.0;       ///< host time from begin() to end(), with the code that lists the passes
-    uint32_t passes = 0;   ///< recorded, copies and clears included
-    uint32_t dropped = 0;  ///< listed, and needed by nobody
+    double ms = 0.0;       ///< host time from begin() to end(), including the code that lists the passes
+    uint32_t passes = 0;   ///< recorded passes, including copies and clears
+    uint32_t dropped = 0;  ///< culled passes, whose output is unused
     uint32_t barriers = 0;
-    uint32_t plans = 0;  ///< lists that were not planned before
+    uint32_t plans = 0;  ///< lists without a cached plan
 };
 
 class Recorder : public PassList {
@@ -44,53 +43,53 @@ public:
 
     /// Starts a frame: everything up to end() is recorded into `commands`, outside of render passes. The device must
     /// have finished the frame that was begun `framesInFlight` frames before; its times and read-backs are available
-    /// from now on. Frames must be submitted in the order in which they begin. A frame that has begun and not ended,
-    /// after an exception, is abandoned: its commands must not be submitted.
+    /// from now on. Frames must be submitted in the order in which they begin. If an exception keeps a frame from
+    /// ending, it is abandoned: its commands must not be submitted.
     void begin(VkCommandBuffer commands);
-    /// What is flushed from now on goes into this command buffer. The device must execute them in this order, and see
-    /// in each what the ones before have written: barriers do that on one queue, a semaphore between two.
+    /// Redirects later flushes into this command buffer. The device must execute the command buffers in this order, and
+    /// each must see the writes of the earlier ones: by barriers on one queue, by a semaphore between two.
     void recordInto(VkCommandBuffer commands) { commands_ = commands; }
     /// Plans and records the passes listed so far, for callers that record commands of their own before the next ones.
-    /// What lives in one frame and is used later must be kept (PassList::keep).
+    /// Transient resources that are used later must be kept (PassList::keep).
     void flush();
-    /// Forgets the passes that were listed since the last flush.
+    /// Discards the passes that were listed since the last flush.
     void drop() { nextList(false); }
-    /// Records what is left and ends the frame. The command buffer may record on: none of the bound pipelines and
-    /// descriptor sets is kept.
+    /// Records the remaining passes and ends the frame. The caller may continue to record into the command buffer:
+    /// bound pipelines and descriptor sets are undefined.
     void end();
-    /// The device has finished all frames begun so far: frees what only they used; times and read-backs of the last one
-    /// are available.
+    /// The device has finished all frames begun so far: frees resources that only they used; times and read-backs of
+    /// the last one are available.
     void finish();
-    /// The same, but nobody is going to ask for them. Also for a device that is lost.
+    /// As finish(), but without times and read-backs. Also for a lost device.
     void abandon() noexcept;
 
-    /// Until end(), instead of begin(): lists are planned and not recorded. Images, buffers and memory are made as in a
-    /// frame; the pipelines that the passes need and the context does not have yet are added to `missing`.
+    /// Use instead of begin(), until end(): lists are planned but not recorded. Images, buffers and memory are created
+    /// as in a frame; pipelines that the passes need and the context lacks are added to `missing`.
     void prepare(std::vector<PipelineInfo>& missing);
-    /// From the next frame on, memory is laid out anew: for callers that have flushed several lists, the first of which
-    /// did not know of the histories of the later ones.
+    /// Defragments memory from the next frame on: for callers that have flushed several lists, the first of which was
+    /// planned without the histories of the later ones.
     void tidy() { tidies_ = true; }
 
-    /// Of the last frame that the device has finished: rows from the top, tightly packed.
+    /// Read-back data of the last frame that the device has finished: rows from the top, tightly packed.
     [[nodiscard]] std::span<const std::byte> bytes(Readback readback) const;
 
     /// Pass times of the last frame that the device has finished, in recording order. The first entry, "frame", is from
     /// start to end.
     [[nodiscard]] const std::vector<PassTime>& passTimes() const { return times_; }
-    /// Of the last frame that was ended.
+    /// Counts of the last frame that was ended.
     [[nodiscard]] const RecordingCounts& counts() const { return counted_; }
-    /// Bytes of the memory that images and buffers of one frame share.
+    /// Bytes of the memory that transient images and buffers share.
     [[nodiscard]] VkDeviceSize transientBytes() const { return memory().bytes(); }
 
-    /// From the next frame on, listing() tells the passes of each frame.
+    /// Enables listing() from the next frame on.
     void listPasses() { lists_ = true; }
-    /// Of the last frame that was ended.
+    /// Passes of the last frame that was ended.
     [[nodiscard]] const PassListing& listing() const { return listing_; }
 
-    /// From the next list on; by default what suits the device.
+    /// Sets the pass order from the next list on; by default the one that suits the device.
     void orderPasses(PassOrder order) { graph_.order = order; }
 
-    /// For tests: fills the memory of what lives in one frame with NaN before its first and after its last use. Slow.
+    /// For tests: fills transient resources with NaN before their first and after their last use. Slow.
     void poisonTransients(bool poisons) { poisons_ = poisons; }
 
 protected:
@@ -102,7 +101,7 @@ private:
     struct WithoutSlots {};
     Recorder(Context& context, bool timesPasses, WithoutSlots /*tag*/);
 
-    // A block of uniforms, and what it is known by.
+    // A block of uniform memory, and its identity for descriptor caching.
     struct UniformBlock {
         Buffer buffer;
         uint64_t id = 0;
@@ -111,16 +110,16 @@ private:
         const UniformBlock* block = nullptr;
         VkDeviceSize offset = 0;
     };
-    // What one frame in flight needs for itself.
+    // Resources of one frame in flight.
     struct Slot {
-        uint64_t serial = 0;                 ///< of its work; 0: none that is unfinished
+        uint64_t serial = 0;                 ///< serial number of its work; 0: no unfinished work
         std::vector<UniformBlock> uniforms;  ///< filled in turn
-        size_t uniformBlock = 0;             ///< that is filled now
-        VkDeviceSize uniformsUsed = 0;       ///< of that block
+        size_t uniformBlock = 0;             ///< index of the block being filled
+        VkDeviceSize uniformsUsed = 0;       ///< bytes used in that block
         PassTimers::Frame timed;
         std::vector<Buffer> readbacks;
     };
-    // A list that was planned, with what was placed for it.
+    // A planned list, with the resources placed for it.
     struct CachedPlan {
         PassGraph graph;
         std::vector<ImageInfo> infos;  ///< of each resource; none for buffers
@@ -129,7 +128,7 @@ private:
         std::vector<std::shared_ptr<PlacedBuffer>> buffers;  ///< of each resource, or none
         uint64_t lastUse = 0;                                ///< frame number
     };
-    // A resource of the list at hand.
+    // A resource of the current list.
     struct Listed {
         Image image;
         BufferView buffer;
@@ -168,24 +167,24 @@ private:
     PassTimers timers_;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;  ///< null between frames
     std::vector<PipelineInfo>* missing_ = nullptr;
-    uint64_t preparation_ = 0;  ///< serial of work, while something is prepared
+    uint64_t preparation_ = 0;  ///< serial number of the work of prepare()
     size_t finished_ = 0;       ///< slot of the last frame that the device has finished
     bool poisons_ = false;
     bool lists_ = false;
     PassListing listing_;
     uint32_t listsOfFrame_ = 0;
     bool tidies_ = false;       ///< memory is in several blocks, or too large, and one list makes a frame
-    uint32_t roomyFrames_ = 0;  ///< in a row that used less than half of the memory
+    uint32_t roomyFrames_ = 0;  ///< number of consecutive frames that used less than half of the memory
     RecordingCounts counting_;
     RecordingCounts counted_;
     std::chrono::steady_clock::time_point began_;
     std::vector<PassTime> times_;
-    // The list at hand.
+    // The current list.
     PassGraph graph_;
     std::vector<ImageInfo> infos_;
     std::vector<Listed> resources_;
     std::unordered_multimap<uint64_t, std::unique_ptr<CachedPlan>> plans_;  ///< by hash of graph and infos
-    // Scratch, so that a steady frame takes no memory.
+    // Scratch, so that a steady frame allocates no memory.
     std::vector<VkImageMemoryBarrier2> imageBarriers_;
     std::vector<uint32_t> dynamicOffsets_;
     std::vector<VkRenderingAttachmentInfo> attachments_;

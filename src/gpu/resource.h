@@ -27,7 +27,7 @@ struct AccessState {
     bool operator==(const AccessState&) const = default;
 };
 
-/// Place of a resource in the list of passes that uses it; written by that list alone.
+/// Index of a resource in the list of passes that uses it; written by that list only.
 struct ListMark {
     const void* owner = nullptr;  ///< the recorder
     uint64_t list = 0;            ///< number of the list; 0: none yet
@@ -36,29 +36,28 @@ struct ListMark {
 
 struct HeldImage;
 
-/// What all views of an image share. Of an image that lives in one frame only, the handles are there once its passes
-/// are recorded.
+/// State shared by all views of an image. Handles of transient images are null until their passes are recorded.
 struct ImageState {
     VkImage image = VK_NULL_HANDLE;
     VkImageView view = VK_NULL_HANDLE;  ///< all of its mips and layers
     std::vector<VkImageView> mips;      ///< each as a 2D array of all layers; may be empty
-    uint64_t id = 0;                    ///< no other image of this process ever has it; 0: of a host
-    std::string name;                   ///< of what an owner made; of transient images the recorder knows it
-    VkDeviceSize bytes = 0;             ///< of its memory, if it has an owner
+    uint64_t id = 0;                    ///< unique in this process, never reused; 0: a host's image
+    std::string name;                   ///< only of images with an owner; the recorder has names of transient images
+    VkDeviceSize bytes = 0;             ///< size of its memory, if it has an owner
     VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
     AccessState access;
     ListMark mark;
-    HeldImage* held = nullptr;  ///< that this is the state of; none for other images
+    HeldImage* held = nullptr;  ///< the held image that this state belongs to; none for other images
     int32_t transient = -1;     ///< index among the transient images of its recorder; negative: it has an owner
-    bool unused = false;        ///< PassList::placeholder: no shader uses what it holds
+    bool unused = false;        ///< PassList::placeholder: no shader uses its contents
     uvec2 origin{0};            ///< external: the first pixel of the rectangle that passes use
     bool external = false;      ///< its owner records the barriers; passes sample it, in `layout`, or write it
 };
 
 struct BufferState {
     VkBuffer buffer = VK_NULL_HANDLE;
-    uint64_t id = 0;  ///< this and what follows as of ImageState
+    uint64_t id = 0;  ///< this and the following as in ImageState
     std::string name;
     VkDeviceSize bytes = 0;
     AccessState access;
@@ -66,7 +65,7 @@ struct BufferState {
     int32_t transient = -1;
 };
 
-/// For ImageState::id and BufferState::id.
+/// Returns a new ImageState::id or BufferState::id.
 uint64_t nextResourceId();
 
 /// Type of the view that shaders get.
@@ -123,10 +122,10 @@ uint32_t bytesPerTexel(VkFormat format);
 /// Bytes of all texels of a view.
 uint64_t bytesOf(const Image& image);
 
-/// An image without memory, as an owner of one makes it. Throws Error for a size that the device does not have.
+/// Creates an image without memory, for its owner. Throws Error for a size that the device does not support.
 VkImage makeImage(Context& context, const ImageInfo& info, const std::string& name);
-/// The views of an image that is bound to memory: state.view and, of storage images with several mips and of cubes,
-/// state.mips.
+/// Creates the views of an image that is bound to memory: state.view and, for storage images with several mips and for
+/// cubes, state.mips.
 void makeViews(Context& context, const ImageInfo& info, ImageState& state);
 void destroyImage(Context& context, const ImageState& state);
 
@@ -152,7 +151,7 @@ private:
 
     Context* context_ = nullptr;
     ImageInfo info_;
-    std::shared_ptr<ImageState> state_;  ///< also of passes that are not recorded yet
+    std::shared_ptr<ImageState> state_;  ///< also referenced by passes that are not recorded yet
     Allocation allocation_;
 };
 
@@ -178,7 +177,7 @@ private:
 
     Context* context_ = nullptr;
     VkDeviceSize size_ = 0;
-    std::shared_ptr<BufferState> state_;  ///< also of passes that are not recorded yet
+    std::shared_ptr<BufferState> state_;  ///< also referenced by passes that are not recorded yet
     Allocation allocation_;
 };
 

@@ -39,12 +39,12 @@ struct SpecializationConstant {
     uint32_t id = 0;
 };
 
-/// A shader and its interface. Views point to what is embedded in the program or library, or kept by an owner.
+/// A shader and its interface. Views point to data that is embedded in the program or library, or kept by an owner.
 struct Shader {
     std::string_view name;  ///< "trace_screen.comp"
     std::span<const uint32_t> words;
     VkShaderStageFlagBits stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    std::span<const ShaderBinding> bindings;  ///< those that the code uses
+    std::span<const ShaderBinding> bindings;  ///< only statically used ones
     std::span<const SpecializationConstant> constants;
     std::span<const ShaderLocation> inputs;
     std::span<const ShaderLocation> outputs;
@@ -52,7 +52,7 @@ struct Shader {
     glm::uvec3 localSize{1};
 };
 
-/// A shader that is not embedded, and what its views point into.
+/// A shader that is not embedded, and the owner of the data that its views point to.
 struct ReflectedShader {
     Shader shader;
     std::shared_ptr<const void> owner;
@@ -61,7 +61,7 @@ struct ReflectedShader {
 /// The shaders of a context, by name.
 class ShaderLibrary {
 public:
-    /// Adds shaders that are embedded in a program or library. A name that is there already keeps its shader.
+    /// Adds shaders that are embedded in a program or library. Names that already exist keep their shader.
     void add(std::span<const Shader> shaders);
 
     /// Replaces a shader by one of the same name. Throws Error, and keeps the old one, if the interface (bindings,
@@ -74,7 +74,7 @@ public:
 
 private:
     std::map<std::string_view, Shader, std::less<>> shaders_;  ///< names are those of the embedded tables
-    std::vector<std::shared_ptr<const void>> owners_;          ///< of all replacements, as pipelines keep their names
+    std::vector<std::shared_ptr<const void>> owners_;          ///< of all replacements: pipelines refer to their names
 };
 
 }  // namespace reflet::gpu

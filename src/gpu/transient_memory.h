@@ -1,5 +1,5 @@
-// The memory of what lives in one frame: blocks in which a plan places images and buffers, and the images and buffers
-// themselves, which are bound to a place once and used in every frame that has the same plan.
+// Transient memory: blocks in which a plan places the images and buffers of one frame, and these resources themselves,
+// which are bound to a place once and reused in every frame with the same plan.
 #pragma once
 
 #include "gpu/memory.h"
@@ -17,7 +17,7 @@ namespace reflet::gpu {
 
 class Context;
 
-/// An image at its place. Destroyed once the device has finished with it.
+/// An image bound to its place in memory. Destroyed once the device has finished with it.
 struct PlacedImage {
     Context& context;
     ImageState state;
@@ -28,8 +28,8 @@ struct PlacedImage {
     PlacedImage& operator=(const PlacedImage&) = delete;
 };
 
-/// An image that keeps its contents from one frame to the next, in memory that others use while nobody needs them.
-/// One of the two of a history. Images of several sizes may lie in that memory, one of which holds the contents.
+/// One of the two images of a history. It keeps its contents from one frame to the next, in memory that is aliased
+/// while they are not needed. Images of several sizes may lie in that memory, one of which has the contents.
 struct HeldImage {
     /// An image at the start of the memory.
     struct Sized {
@@ -40,22 +40,22 @@ struct HeldImage {
 
     Context& context;
     std::string name;
-    std::vector<std::unique_ptr<Sized>> images;  ///< all that there are; few
-    Sized* current = nullptr;                    ///< of these, that frames use now
-    uint64_t occupant = 0;                       ///< ImageState::id of the one that was used last as the current one
+    std::vector<std::unique_ptr<Sized>> images;  ///< one per size; few
+    Sized* current = nullptr;                    ///< the one in `images` that frames use now
+    uint64_t occupant = 0;                       ///< ImageState::id of the last one used as the current one
     Allocation allocation;
     uint32_t heap = 0;
     VkDeviceSize offset = 0;  ///< in the heap
     VkDeviceSize size = 0;
-    // The part that it plays now.
-    uint64_t frame = 0;          ///< for which the next member is said
+    // Its current role in the history.
+    uint64_t frame = 0;          ///< number of the frame for which isNext is valid
     bool isNext = false;         ///< it is written in this frame; otherwise it was in the last one
-    uint64_t usedFrame = 0;      ///< the last one in which an earlier list used it, plus 1
-    uint64_t recordedFrame = 0;  ///< the last one in which a list that uses it was recorded, plus 1
-    uint64_t rescaledFrame = 0;  ///< the last one in which it was written as the next one after its content of another
+    uint64_t usedFrame = 0;      ///< last frame in which an earlier list used it, plus 1
+    uint64_t recordedFrame = 0;  ///< last frame in which a list that uses it was recorded, plus 1
+    uint64_t rescaledFrame = 0;  ///< last frame in which it was written as the next one after its content of another
                                  ///< size had been resampled, plus 1
 
-    std::weak_ptr<HeldImage> other;  ///< of the same history
+    std::weak_ptr<HeldImage> other;  ///< the other image of the same history
 
     HeldImage(Context& of, std::string called) : context(of), name(std::move(called)) {}
     ~HeldImage();
@@ -85,24 +85,26 @@ public:
         VkDeviceSize size = 0;
         VkDeviceSize alignment = 1;
     };
-    /// What an image or buffer takes in memory.
+    /// Memory requirements of an image or buffer.
     Needs needsOf(const ImageInfo& info);
     Needs needsOf(VkDeviceSize bufferSize);
 
     /// The heaps as a plan sees them.
     [[nodiscard]] std::vector<GraphHeap>& heaps() { return heaps_; }
 
-    /// Makes room up to the end of what a plan places in each heap.
+    /// Allocates memory up to the end of a plan's placements in each heap.
     void reserve(const std::vector<VkDeviceSize>& ends);
-    /// The image of this kind at this place; one that is alive is used again.
+    /// The image with this info at this offset; reuses one that is alive.
     std::shared_ptr<PlacedImage> image(const ImageInfo& info, VkDeviceSize offset, const std::string& name);
     std::shared_ptr<PlacedBuffer> buffer(VkDeviceSize size, VkDeviceSize offset);
 
-    /// Makes an image that is held until its owner lets go of it.
+    /// Creates an image that is held until its owner releases it.
     std::shared_ptr<HeldImage> hold(const ImageInfo& info, const std::string& name);
-    /// Makes an image of this kind its current one. Returns false, and does nothing, if its memory does not do for it.
+    /// Makes an image with this info the current one of `held`. Returns false, and does nothing, if its memory does not
+    /// fit.
     bool show(HeldImage& held, const ImageInfo& info, uint64_t frame);
-    /// Says in `heaps` when held memory is free in the list at hand. resourceOf: of a state, or HeldRange::unused.
+    /// Adds to `heaps` when held memory is free in the current list. resourceOf: resource index of an image state, or
+    /// HeldRange::unused.
     template <class F>
     void describeHeld(std::vector<GraphHeap>& heaps, uint64_t frame, const F& resourceOf) const {
         for (const HeldBlock& block : held_) {
@@ -116,15 +118,14 @@ public:
             heaps[block.heap].held.push_back(range);
         }
     }
-    /// Whether something that was held is gone, or was added to memory that is laid out already: release() puts the
-    /// rest in order.
+    /// Whether a held image is gone, which leaves a gap: release() lays out the remaining ones without it.
     [[nodiscard]] bool isUntidy() const;
 
-    /// Gives all other blocks back, for one of the right size to take their place; what was placed must not be used
-    /// again.
+    /// Frees all blocks that are not held, so that one block of the right size replaces them; placed resources must not
+    /// be used again.
     void release();
-    [[nodiscard]] VkDeviceSize bytes() const;      ///< without what is held
-    [[nodiscard]] VkDeviceSize heldBytes() const;  ///< of what is held
+    [[nodiscard]] VkDeviceSize bytes() const;      ///< bytes without held images
+    [[nodiscard]] VkDeviceSize heldBytes() const;  ///< bytes of held images
     [[nodiscard]] size_t blockCount() const;
     /// For tests: a buffer over a whole block, to fill memory that is free. offset: in the heap; returns the offset in
     /// the block.
@@ -137,7 +138,7 @@ private:
         VkBuffer all = VK_NULL_HANDLE;
         bool held = false;  ///< its memory belongs to a HeldImage
     };
-    // In the space of offsets; of a heap's blocks some are held.
+    // Range of a held image in its heap's space of offsets.
     struct HeldBlock {
         std::weak_ptr<HeldImage> image;
         uint32_t heap = 0;

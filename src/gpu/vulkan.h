@@ -12,13 +12,13 @@
 
 namespace reflet::gpu {
 
-/// Memory of the device or the host is exhausted.
+/// Device or host memory is exhausted.
 class OutOfMemory : public Error {
 public:
     using Error::Error;
 };
 
-/// The device, or what was enabled on it, lacks something.
+/// The device lacks a required feature, or the feature was not enabled.
 class Unsupported : public Error {
 public:
     using Error::Error;

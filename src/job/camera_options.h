@@ -1,4 +1,4 @@
-// Camera and sun as somebody types them: angles around the scene instead of coordinates. They apply after the view
+// Command line options of camera and sun: angles around the scene instead of coordinates. They apply after the view
 // file.
 #pragma once
 
@@ -14,12 +14,12 @@ struct CameraOptions {
     std::string lookAt;  ///< "X,Y,Z" in metres, in the coordinates of the file, or the name of a node with a mesh
     std::optional<double> fov;      ///< degrees, vertical
     std::optional<double> zoom;     ///< magnification of the picture's middle; 2: twice as large
-    std::optional<double> fNumber;  ///< of a full-frame lens
-    std::string focus;              ///< metres, "X,Y,Z" or a name as lookAt
+    std::optional<double> fNumber;  ///< f-number of a full-frame lens
+    std::string focus;              ///< focus distance in metres, or the point "X,Y,Z" or a name as in lookAt
     std::string sun;                ///< "AZIMUTH,ELEVATION": where it is seen from the scene
-    bool wholeTurn = false;         ///< where the scene is framed, it is for a camera that goes around it
+    bool wholeTurn = false;         ///< if the scene is framed: frame it for a camera that orbits it
 
-    /// Whether any of them changes the view.
+    /// Whether any option changes the view.
     [[nodiscard]] bool any() const;
 };
 
@@ -32,16 +32,16 @@ struct Direction {
     double elevation = 0.0;
 };
 
-/// The unit vector from the middle of the scene there, and back (azimuth -180 to 180).
+/// The unit vector from the middle of the scene in this direction, and the inverse (azimuth -180 to 180).
 glm::dvec3 unitVector(const Direction& direction);
 Direction directionOf(const glm::dvec3& vector);
 
-/// The directions of orbit and sun, without the distance. Throws UsageError that names the ranges.
+/// Parses the direction of --orbit or --sun, without the distance. Throws UsageError that names the ranges.
 Direction parseDirection(const std::string& text, const std::string& option);
 
-/// Places the camera. A camera without an interest (of a glTF file, or `automatic`: made by framingCamera) goes around
-/// the scene and frames it, unless a distance is given; others go around their target at its distance. aspect: width /
-/// height of the image. Throws UsageError that names the ranges, Error for a node that the scene does not have.
+/// Places the camera. A camera without an interest (of a glTF file, or `automatic`: made by framingCamera) orbits the
+/// scene and frames it, unless a distance is given; others orbit their target at its distance. aspect: width / height
+/// of the image. Throws UsageError that names the ranges, Error for a node that the scene does not have.
 void placeCamera(const CameraOptions& options, const Scene& scene, float aspect, bool automatic, View& view);
 
 /// Turns the sun, and detaches it from its node.

@@ -1,4 +1,4 @@
-// Contact sheets: many pictures on one, in a grid, with their names.
+// Contact sheets: many pictures in one image, in a grid, with their names.
 #pragma once
 
 #include "base/image_file.h"
@@ -18,15 +18,15 @@ struct SheetPicture {
 
 struct SheetOptions {
     uvec2 cell{320, 240};  ///< pixels for each picture, without its name
-    uint32_t columns = 0;  ///< 0: so that the sheet is about 16:9
+    uint32_t columns = 0;  ///< 0: as many as make the sheet about 16:9
     uint32_t gap = 12;     ///< pixels between pictures and around them
-    uint8_t grey = 32;     ///< of the sheet, behind transparent pictures, too
+    uint8_t grey = 32;     ///< background value, also behind transparent pictures
 };
 
-/// RGB or RGBA, scaled down to fit within `most`, by the mean of the covered pixels' light; smaller ones stay.
+/// RGB or RGBA, scaled down to fit within `most` by a box filter in linear light; smaller bitmaps are unchanged.
 Bitmap fitted(const Bitmap& bitmap, uvec2 most);
 
-/// Columns of a sheet of `count` pictures.
+/// Number of columns of a sheet of `count` pictures.
 uint32_t sheetColumns(const SheetOptions& options, size_t count);
 
 /// Row by row, each picture in the middle of its cell and its name below, shortened to the cell's width. Names are left

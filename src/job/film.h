@@ -1,5 +1,5 @@
 // Films: outputs with all frames in one file, .webp, .mp4 or .webm. Frames are PNG files in a folder beside the film
-// until it is whole, so a film is resumed and shared as any sequence.
+// until it is complete, so a film can be resumed and shared like any sequence.
 #pragma once
 
 #include "job/sequence_names.h"
@@ -18,7 +18,8 @@ bool isFilm(const std::string& output);
 class Films {
 public:
     /// Replaces each film in `outputs` by the name of its frames, "film.webp.frames/frame_######.png", and creates that
-    /// folder. Throws UsageError for a format that needs ffmpeg where it is not installed, or is too small for `size`.
+    /// folder. Throws UsageError for a format that needs ffmpeg if it is not installed, or that is too small for the
+    /// picture's size.
     Films(std::vector<std::string>& outputs, uint32_t width, uint32_t height);
     /// Removes folders that are still empty.
     ~Films();
@@ -30,8 +31,8 @@ public:
     /// Whether the output is the name of a film's frames.
     [[nodiscard]] bool hasFrames(const std::string& output) const;
 
-    /// Writes the films of frames [first, first + count) and removes these. Frames may be missing, of other shares:
-    /// then a note says so, and nothing is written. Throws Error. Returns the names of what was written.
+    /// Writes films from the frames [first, first + count) and removes the frames' files. If frames of other shares are
+    /// missing, prints a note and writes nothing. Throws Error. Returns the names of the films written.
     [[nodiscard]] std::vector<std::string> write(double fps, uint32_t first, uint32_t count) const;
 
 private:

@@ -31,14 +31,14 @@ private:
     std::unique_ptr<XXH3_state_s, Free> state_;
 };
 
-/// Changes with what is hashed below, and how: what was stored under an older one is made anew.
+/// Incremented whenever the data hashed below, or the hashing, changes: invalidates stored results of older versions.
 constexpr uint32_t fingerprintVersion = 3;
 
-/// Everything that an image of the scene can depend on, also names and cameras.
+/// Adds everything that an image of the scene can depend on, also names and cameras.
 void addTo(Fingerprint& print, const Scene& scene);
-/// Everything but probes and mirrors (planar reflections), which the path traced reference does not use.
+/// Adds everything but probes and mirrors (planar reflections), which the path traced reference does not use.
 void addTo(Fingerprint& print, const View& view);
-/// Everything but the number of threads, on which the image does not depend.
+/// Adds everything but the number of threads, on which the image does not depend.
 void addTo(Fingerprint& print, const ReferenceOptions& options);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// What is rendered, and to which files.
+// Options of `reflet render`: what to render, and to which files.
 #pragma once
 
 #include "job/scene_options.h"
@@ -14,8 +14,8 @@ struct RenderOptions {
     SceneOptions scene;
     std::vector<std::string> outputs;
     uint32_t frames = 0;   ///< 0: as many as the settings need
-    std::string effort;    ///< of a still: draft, normal or high; empty: normal
-    double seconds = 0.0;  ///< of a still, at most; 0: the effort's
+    std::string effort;    ///< effort of a still: draft, normal or high; empty: normal
+    double seconds = 0.0;  ///< time limit of a still; 0: the effort's
     SequenceOptions sequence;
     std::string show = "final";
     std::vector<std::string> aovs;

@@ -1,4 +1,4 @@
-// What to render, as a user names it: the scene, the view, size, seed and settings.
+// Command line options of what to render: scene, view, size, seed and settings.
 #pragma once
 
 #include "job/camera_options.h"
@@ -14,12 +14,12 @@ namespace reflet {
 struct SceneOptions {
     std::string scene;
     std::optional<int> sceneIndex;
-    std::string variant;    ///< of the glTF file's materials; empty: its default
-    std::string animation;  ///< of the glTF file, as GltfOptions has it
+    std::string variant;    ///< material variant of the glTF file; empty: its default
+    std::string animation;  ///< animation of the glTF file, as in GltfOptions
     std::string up = "Y";   ///< the file's axis that points up: "Y" or "Z"
     std::string camera;
     std::string viewFile;
-    CameraOptions placing;    ///< after the view file
+    CameraOptions placing;    ///< applied after the view file
     std::string environment;  ///< "sky", "studio", "none" or a file; empty: the view file's, the scene's or a default
     std::string background;   ///< as parseBackground takes it; empty: the view file's or a default
     std::optional<double> time;  ///< seconds, overrides the view file
@@ -33,17 +33,17 @@ struct SceneOptions {
     bool strict = false;  ///< invalid parts of a file are errors
 };
 
-/// One line on standard error.
+/// Prints one line on standard error.
 void printWarning(const std::string& message);
-/// The same for what is no problem, but good to know.
+/// The same for information that is not a problem.
 void printNote(const std::string& message);
 
 /// A file, or `builtin:NAME`. Warnings are printed.
 Scene loadScene(const SceneOptions& options);
 
 /// The scene's view, changed by --camera, --view-file, `placing`, --environment, --background and --time. A file
-/// without enough light, with which none of these says what lights it, gets a default (scene/default_light.h), and a
-/// note says so. Writes it to `saveView`, if that is named.
+/// without enough light gets a default (scene/default_light.h) and a note, unless one of these sets its light. Writes
+/// the view to `saveView`, if given.
 View loadView(const SceneOptions& options, const Scene& scene);
 
 /// "1280x720". Throws UsageError.

@@ -1,5 +1,5 @@
-// The files of a sequence that is being made: which are there, which are missing. Nothing but the files and their
-// record is shared between processes, so several can make one sequence, and any of them may end at any time.
+// The files of a sequence that is being rendered: which exist, which are missing. Processes share only the files and
+// their record, so several can render one sequence, and any of them may end at any time.
 #pragma once
 
 #include "job/scene_options.h"
@@ -24,7 +24,7 @@ public:
 
     [[nodiscard]] const std::vector<FrameNames>& names() const { return names_; }
 
-    /// Those of a frame, counted from 0, that do not exist at this moment or have no end.
+    /// Files of a frame, counted from 0, that do not exist at this moment or are incomplete.
     [[nodiscard]] std::vector<std::filesystem::path> missing(uint32_t frame) const;
     [[nodiscard]] bool isMissing(uint32_t frame) const { return !missing(frame).empty(); }
 
@@ -33,7 +33,7 @@ private:
     uint32_t firstFrame_;
 };
 
-/// A note, if the share has no segment of the plan.
+/// Prints a note if the share has no segment of the plan.
 void noteEmptyShare(const SequencePlan& plan, Share share);
 
 /// The part of the record that all sequences have: scene, view, size, seed, frame times, path.

@@ -32,7 +32,7 @@ public:
 private:
     std::string pattern_;
     std::filesystem::path folder_;
-    std::string before_;  ///< of the file's name
+    std::string before_;  ///< file name before the number
     std::string after_;
     size_t digits_ = 0;
 };

@@ -1,4 +1,4 @@
-// Options of sequences, of rendered and of path-traced ones.
+// Options of rendered and path-traced sequences.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,10 @@ namespace reflet {
 struct SequenceOptions {
     uint32_t firstFrame = 0;  ///< the number in the first file's name
     double fps = 24.0;
-    std::string path;       ///< of the camera: "orbit", or a JSON file
-    uint32_t segment = 48;  ///< frames; 0: all
-    uint32_t warmUp = 16;   ///< frames before each segment
-    std::string share;      ///< as parseShare takes it
+    std::string path;       ///< camera path: "orbit", or a JSON file
+    uint32_t segment = 48;  ///< frames per segment; 0: all
+    uint32_t warmUp = 16;   ///< frames rendered before each segment
+    std::string share;      ///< as in parseShare
     bool overwrite = false;
 };
 

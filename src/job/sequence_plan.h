@@ -1,5 +1,6 @@
 // Plans which frames of a sequence are rendered consecutively. Frames that depend on earlier ones are cut into
-// segments, each of which starts with an empty history: so a part of the sequence gives the same images as the whole.
+// segments, each of which starts with an empty history. So rendering a part of the sequence gives the same images as
+// rendering all of it.
 #pragma once
 
 #include "job/share.h"
@@ -12,9 +13,9 @@ namespace reflet {
 
 struct SequencePlan {
     uint32_t frames = 1;
-    uint32_t segment = 1;        ///< frames, at least 1
+    uint32_t segment = 1;        ///< frames per segment, at least 1
     uint32_t warmUp = 0;         ///< frames rendered before each segment and each shot
-    std::vector<uint32_t> cuts;  ///< first frames of shots but the first, ascending: they have no history either
+    std::vector<uint32_t> cuts;  ///< first frames of all shots but the first, ascending: they have no history either
 
     /// Frames [begin, end), counted from 0, to be rendered consecutively.
     struct Run {
@@ -22,8 +23,8 @@ struct SequencePlan {
         uint32_t end = 0;
     };
 
-    /// Segments are dealt to the shares round-robin. Returns the share's segments that miss frames, each ended after
-    /// its last missing frame, and parted into shots.
+    /// Distributes segments to the shares round-robin. Returns the share's segments with missing frames, each cut off
+    /// after its last missing frame, and split into shots.
     [[nodiscard]] std::vector<Run> runs(Share share, const std::function<bool(uint32_t frame)>& isMissing) const;
     /// The first frame of the shot that the frame belongs to.
     [[nodiscard]] uint32_t shotOf(uint32_t frame) const;

@@ -1,4 +1,5 @@
-// The record beside a sequence's images: what they depend on, so that images of different runs are not mixed.
+// The record beside a sequence's images lists everything that they depend on, so that images of different runs are not
+// mixed.
 #pragma once
 
 #include "job/sequence_names.h"
@@ -18,8 +19,8 @@ std::string sceneFingerprint(const std::string& scene);
 /// All values of a view.
 nlohmann::ordered_json recordOf(const View& view);
 
-/// Writes a record of what files depend on, or compares it with the existing one. Throws Error with the differences,
-/// which ends in `cure`. Several processes may call it at once.
+/// Writes a record of a file's inputs, or compares it with the existing one. Throws Error with the differences; its
+/// message ends in `cure`. Several processes may call it at once.
 void beginRecord(const std::filesystem::path& file, const nlohmann::ordered_json& record, const std::string& cure);
 
 /// Writes the record of a new sequence, or checks it against the existing one, whose images are then kept. Throws Error

@@ -1,4 +1,4 @@
-// The views of a sequence's frames: time goes on, and the camera stands still, orbits or follows keyframes.
+// The views of a sequence's frames: time advances, and the camera stands still, orbits or follows keyframes.
 #pragma once
 
 #include "job/sequence_options.h"
@@ -15,12 +15,13 @@ namespace reflet {
 
 class SequenceViews {
 public:
-    /// first: of the first frame. Throws Error for a bad path file, and UsageError if the last frame is too late.
+    /// first: view of the first frame. Throws Error for a bad path file, and UsageError if the last frame's time is too
+    /// late.
     SequenceViews(const View& first, const Scene& scene, const SequenceOptions& options, uint32_t frames);
 
     /// frame: counted from 0.
     [[nodiscard]] View of(uint32_t frame) const { return at(frame); }
-    /// The same between frames. Nothing moves before the time 0.
+    /// The view at a fractional frame number. Nothing moves before the time 0.
     [[nodiscard]] View at(double frame) const;
     /// The frames before which the camera jumps: it moves or turns much farther than in the frames around.
     [[nodiscard]] std::vector<uint32_t> cuts(const Scene& scene) const;
@@ -33,7 +34,7 @@ private:
     std::optional<CameraPath> path_;
 };
 
-/// The camera's path for the sequence's record: everything that the views depend on besides the first one.
+/// The camera's path for the sequence's record: all inputs of the views besides the first one.
 nlohmann::ordered_json pathRecord(const SequenceOptions& options, uint32_t frames);
 
 }  // namespace reflet

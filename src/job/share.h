@@ -1,4 +1,4 @@
-// One process's share of work that many divide among them.
+// One process's share of work that is divided among several.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,9 @@ struct Share {
 using EnvironmentVariable = std::function<const char*(const char* name)>;
 
 /// "3/16" is the third of sixteen; "" is all. "auto" takes index and count from the environment of a Slurm job array,
-/// of a Slurm step with several tasks, or of both. "auto/16" takes the index alone, also from a PBS job array or GNU
-/// parallel, which do not tell the count. Throws UsageError, also for an environment without an array, with two, or
-/// with one whose indices are no range.
+/// of a Slurm step with several tasks, or of both. "auto/16" takes only the index, also from a PBS job array or GNU
+/// parallel, which do not provide the count. Throws UsageError, also for an environment without an array, with two
+/// arrays, or with one whose indices are not a contiguous range.
 Share parseShare(const std::string& text);
 Share parseShare(const std::string& text, const EnvironmentVariable& environment);
 

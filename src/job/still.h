@@ -1,4 +1,4 @@
-// Renders stills: one finished picture, the best that an effort buys, rather than a frame of a game.
+// Renders stills: one converged picture, as good as the chosen effort allows, rather than a real-time frame.
 #pragma once
 
 #include "job/sequence.h"
@@ -9,17 +9,17 @@
 
 namespace reflet {
 
-/// Whether the options ask for a still: one picture and nothing that is about single frames; or an effort.
+/// Whether the options request a still: one picture and no options about single frames; or an effort.
 bool isStill(const RenderOptions& options);
 
-/// The preset of a still, if the user names none.
+/// The default preset of a still.
 std::string_view stillPreset(const RenderOptions& options);
 
 /// "at most 30 s, or until the noise is 0.004".
 std::string stillLimits(const RenderOptions& options);
 
 /// Renders frames of the view until the effort's noise or time is reached, and keeps the last one in job.pictures.
-/// The time counts from `start`, with all that was done before the first frame.
+/// Time counts from `start`, including all work before the first frame.
 void renderStill(const RenderJob& job, std::chrono::steady_clock::time_point start);
 
 }  // namespace reflet

@@ -10,7 +10,7 @@ namespace reflet {
 
 class WebpAnimation {
 public:
-    static constexpr uint32_t largestSide = 16383;  ///< pixels, of the format
+    static constexpr uint32_t largestSide = 16383;  ///< pixels, the format's limit
 
     /// fps: frames per second, above 0.
     WebpAnimation(uint32_t width, uint32_t height, double fps);
@@ -18,10 +18,10 @@ public:
     WebpAnimation(const WebpAnimation&) = delete;
     WebpAnimation& operator=(const WebpAnimation&) = delete;
 
-    /// Encodes the next frame; lossy, of quality 90. bitmap: 3 or 4 channels. Throws Error, also for another size.
+    /// Encodes the next frame, lossy with quality 90. bitmap: 3 or 4 channels. Throws Error, also for another size.
     void add(const Bitmap& bitmap);
 
-    /// Writes the file atomically; call at most once. Returns its bytes. Throws Error.
+    /// Writes the file atomically; call at most once. Returns its size in bytes. Throws Error.
     uint64_t write(const std::filesystem::path& file);
 
 private:

@@ -1,4 +1,4 @@
-// Images of a host with conventions of its own, turned into those that the stages read.
+// Converts a host's images from its own conventions to those of the stages.
 #pragma once
 
 #include "effects/import/import.h"
@@ -7,19 +7,19 @@
 
 namespace reflet::lighting {
 
-/// The G-buffer and the second depth layer of a host. params: without the channels, which are set.
+/// The G-buffer and the second depth layer of a host. params: all but the channels, which this sets.
 Surfaces importSurfaces(gpu::PassList& f, const HostSurfaces& host, const ImportParams& params);
 
-/// RGBA16F of the same size: finite, 0 to 65504.
+/// Converts a host's light to RGBA16F of the same size: finite, 0 to 65504.
 gpu::Image importLight(gpu::PassList& f, gpu::Image light, const LightImport& how = {});
 
-/// How bright a host's light may be in this frame, by what it was in the last ones.
+/// Upper bounds of a host's light in this frame, from the light of the last ones.
 LightBound boundLight(gpu::PassList& f, LightBoundStore& own, uvec2 size, const LightBoundFrame& frame);
 
-/// Notes light that the limits have bounded, for those of the next frame.
+/// Measures bounded light, for the bounds of the next frame.
 void measureLight(gpu::PassList& f, LightBound& bound, gpu::Image light);
 
-/// What keeps histories when the size of the frames changes: for gpu::FrameSizes.
+/// Resampling of histories when the frame size changes: for gpu::FrameSizes.
 using reflet::rescaledFormats;
 using reflet::rescaleHistory;
 

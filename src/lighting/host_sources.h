@@ -1,4 +1,4 @@
-// Light that a host has itself, as sources of rays: probes, images of light, planar views.
+// A host's own light as ray sources: probes, images of light, planar reflections.
 #pragma once
 
 #include "effects/lobe/answer_image.h"
@@ -10,28 +10,28 @@
 
 namespace reflet::lighting {
 
-/// What a host has for one lobe, behind the screen.
+/// A host's fallbacks for one lobe, for rays that miss the screen.
 struct HostLight {
-    LobeImage image;   ///< asked first; its image may be none
+    LobeImage image;   ///< first fallback; its image may be none
     ProbeMaps probes;  ///< may be none
     std::vector<PlanarView> mirrors;
     bool mirrorsFirst = true;
 };
 
-/// Copies what it needs; `mirrors` of the result refers to `light`.
+/// The ray sources of `light`; their `mirrors` refer to it, everything else is copied.
 RaySources sourcesOf(const HostLight& light);
 
-/// A planar view of a host: its images, as importSurfaces and importLight take them.
+/// A host's planar reflection: its images, as in importSurfaces and importLight.
 struct HostPlanarView {
     gpu::Image color;
     gpu::Image depth;
     bool reversed = true;
     ViewParams view{};
-    vec4 plane{0.0F};  ///< of MirrorParams
+    vec4 plane{0.0F};  ///< as in MirrorParams
     float tolerance = 0.0F;
 };
 
-/// The view as rays march through it.
+/// Imports the planar reflection for ray marching.
 PlanarView importPlanarView(gpu::PassList& f, const LightingSettings& settings, const HostPlanarView& host,
                             float maxRadiance);
 

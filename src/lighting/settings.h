@@ -1,4 +1,4 @@
-// The settings that the stages read. Every caller has these; a caller may have more.
+// Settings of the stages, common to all callers; a caller may have more.
 #pragma once
 
 #include "effects/ambient_occlusion/ambient_occlusion.h"
@@ -40,19 +40,19 @@ bool tracesRays(const LightingSettings& settings);
 /// Whether sunShadow reads its history.
 bool keepsPenumbras(const ShadowSettings& settings);
 
-/// Users count pixels of the output; stages count those that are rendered. Call it once for the settings of a frame
-/// that is rendered at another height than its output has (temporal upscaling).
+/// Converts pixel counts in the settings from output pixels to rendered pixels. Call it once for the settings of a
+/// frame whose rendered height differs from that of its output (temporal upscaling).
 void countRenderedPixels(LightingSettings& settings, float renderedHeight, float outputHeight);
 
-/// What has changed since the last frame.
+/// Amount of change since the last frame.
 struct Change {
     uint32_t rest = 0;   ///< frames before this one since anything changed (ViewParams::rest)
-    float light = 0.0F;  ///< the share of the light that has changed, 0 to 1
+    float light = 0.0F;  ///< share of the light that has changed, 0 to 1
 };
 
-/// Sets how long histories may be. What is at rest converges: its histories grow beyond what settings allow for motion,
-/// and are not clipped. Where light changes they shrink at once, to what a mean would hold that forgets that share in
-/// each frame. scale: of rendered frames to the output. Call it once for the settings of a frame.
+/// Sets maximum history lengths. At rest the image converges: histories grow beyond what settings allow for motion, and
+/// are not clipped. When light changes they shrink at once, to the length of a mean that forgets that share in each
+/// frame. scale: rendered size over output size. Call it once for the settings of a frame.
 void fitHistories(LightingSettings& settings, const Change& change, float scale);
 
 }  // namespace lighting

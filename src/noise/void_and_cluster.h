@@ -6,8 +6,8 @@
 
 namespace reflet {
 
-/// Ranks for a torus of side · side cells, x fastest: 0 to side² - 1, each once. The cells below any threshold are
-/// evenly spread. Deterministic. side: at least 2.
+/// Ranks for a torus of side · side cells, x fastest: 0 to side² - 1, each once. For any threshold, the cells below it
+/// are evenly spread. Deterministic. side: at least 2.
 std::vector<uint32_t> voidAndClusterRanks(uint32_t side, uint32_t seed);
 
 }  // namespace reflet

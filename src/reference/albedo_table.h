@@ -7,8 +7,8 @@
 
 namespace reflet {
 
-/// Two numbers for each cosine of the angle between normal and viewer and each perceptual roughness, both 0..1,
-/// interpolated between entries at even distances.
+/// Two values, tabulated over the cosine between normal and viewer and the perceptual roughness, both 0..1, with
+/// interpolation between evenly spaced entries.
 class AlbedoTable {
 public:
     /// Calls integrate(cosine, roughness) for each entry, from several threads.

@@ -1,6 +1,6 @@
-// The surface model: Lambert under GGX. The diffuse base receives what the specular layer does not reflect; a share of
-// it may be transmitted instead, refracted (glass.h) or diffusely. A sheen may lie over both, and a clear coat over
-// everything. Specified in docs/conventions.md; shares no code with src/shaders/ggx.glsl.
+// The surface model: Lambert under GGX. The diffuse base receives the light that the specular layer does not reflect; a
+// share of it may be transmitted instead, refracted (glass.h) or diffusely. A sheen may lie over both, and a clear coat
+// over everything. Specified in docs/conventions.md; shares no code with src/shaders/ggx.glsl.
 #pragma once
 
 #include "reference/glass.h"
@@ -15,8 +15,8 @@ namespace reflet {
 
 /// Reflected and transmitted radiance is incident radiance · (diffuse + specular).
 struct Reflection {
-    vec3 diffuse{0.0F};   ///< with sheen
-    vec3 specular{0.0F};  ///< with transmitted light
+    vec3 diffuse{0.0F};   ///< includes sheen
+    vec3 specular{0.0F};  ///< includes transmitted light
 
     [[nodiscard]] vec3 sum() const { return diffuse + specular; }
 };
@@ -27,13 +27,13 @@ struct Scattered {
     Reflection weight;
     float pdf = 0.0F;           ///< per solid angle; 0: a perfectly smooth surface, a delta lobe
     bool throughGlass = false;  ///< transmitted, or reflected inside
-    bool crosses = false;       ///< to the other side of the surface
+    bool crosses = false;       ///< crosses to the other side of the surface
 };
 
 /// Scattering at a surface point toward the ray's origin.
 class Bsdf {
 public:
-    /// boundary: what the ray crosses there, if the point is transmissive.
+    /// boundary: the boundary that the ray crosses at the point, if the point is transmissive.
     Bsdf(const SurfacePoint& point, const ReferenceOptions& options, const Boundary& boundary = {});
 
     /// BSDF · cosine for light from that direction, without delta lobes.
@@ -45,8 +45,8 @@ public:
     /// Directional albedo of the specular layer toward the ray's origin.
     [[nodiscard]] const vec3& specularAlbedo() const { return specularAlbedo_; }
 
-    /// Samples a direction: `lobe` selects the lobe, u the direction in it; both in [0, 1). The weight is 0 if light
-    /// from there does not arrive.
+    /// Samples a direction: `lobe` selects the lobe, u the direction in it; both in [0, 1). The weight is 0 for
+    /// directions from which no light is scattered.
     [[nodiscard]] Scattered scatter(float lobe, const vec2& u) const;
     /// Pdf of scatter() for that direction.
     [[nodiscard]] float pdf(const vec3& direction) const;
@@ -69,13 +69,13 @@ private:
     vec3 geometricNormal_;
     vec3 view_;           ///< local, z > 0
     vec3 diffuse_;        ///< albedo of the diffuse base, attenuated by the specular layer
-    vec3 through_{0.0F};  ///< the same of the light that arrives on the other side
+    vec3 through_{0.0F};  ///< the same for diffuse transmission, of light from the other side
     bool uniform_;
     SpecularLobe specular_;
     vec3 specularAlbedo_{0.0F};
     GlassLobe glass_;
     vec3 transmitted_{0.0F};        ///< weight of the glass lobe's transmitted light
-    float reflectedInside_ = 0.0F;  ///< of the light that an inner boundary reflects
+    float reflectedInside_ = 0.0F;  ///< weight of the light that an inner boundary reflects
     SheenLobe sheen_;
     SpecularLobe coat_;
     float coatAlbedo_ = 0.0F;

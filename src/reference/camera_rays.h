@@ -1,4 +1,5 @@
-// Camera rays through pixels, by a pinhole or a thin lens, and rays from points back to the camera, to test visibility.
+// Camera rays through pixels, by a pinhole or a thin lens, and rays from points back to the camera for visibility
+// tests.
 #pragma once
 
 #include "reference/ray_scene.h"
@@ -12,11 +13,11 @@ class CameraRays {
 public:
     CameraRays(const Camera& camera, uvec2 size);
 
-    /// Through a position in the image in pixels; (0, 0) is its upper left corner. Unit direction.
+    /// The pinhole ray through a position in the image, in pixels; (0, 0) is its upper left corner. Unit direction.
     [[nodiscard]] Ray through(const vec2& pixel) const;
     [[nodiscard]] bool hasLens() const { return apertureRadius_ > 0.0F; }
-    /// From a point of the aperture, which u in [0, 1)² chooses uniformly, through the point where the ray above meets
-    /// the plane of focus. It starts at the near plane.
+    /// The thin-lens ray from a point of the aperture, uniform for u in [0, 1)², through the point where the pinhole
+    /// ray meets the plane of focus. It starts at the near plane.
     [[nodiscard]] Ray throughLens(const vec2& pixel, const vec2& u) const;
     /// Metres in front of the camera, along the view axis.
     [[nodiscard]] float depth(const vec3& point) const { return glm::dot(forward_, point - position_); }
@@ -31,7 +32,7 @@ private:
     vec3 up_;
     vec3 forward_;
     vec2 size_;
-    vec2 halfExtent_;  ///< of the image plane at distance 1 (orthographic: at any)
+    vec2 halfExtent_;  ///< half size of the image plane at distance 1 (orthographic: at any distance)
     float near_;
     float far_;
     bool orthographic_;

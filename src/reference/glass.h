@@ -1,8 +1,7 @@
-// Light at a boundary of glass: rough refraction with total internal reflection, and sheets that are thinner than a
-// pixel. (B. Walter, S. R. Marschner, H. Li, K. E. Torrance, Microfacet Models for Refraction through Rough Surfaces,
-// EGSR 2007)
+// Light at a boundary of glass: rough refraction with total internal reflection, and thin sheets. (B. Walter,
+// S. R. Marschner, H. Li, K. E. Torrance, Microfacet Models for Refraction through Rough Surfaces, EGSR 2007)
 //
-// Light that the microfacets mask is not lost, as in Walter's model: the lobe's directional albedo is 1, and directions
+// Unlike in Walter's model, light masked by microfacets is not lost: the lobe's directional albedo is 1, and directions
 // that leave on the wrong side are mirrored at the surface, as if scattered once more.
 #pragma once
 
@@ -15,11 +14,11 @@
 
 namespace reflet {
 
-/// What a ray crosses at a transmissive surface.
+/// The boundary that a ray crosses at a transmissive surface.
 struct Boundary {
     enum class Kind : uint8_t {
-        none,   ///< nothing changes there: the ray goes straight on
-        thin,   ///< a sheet: the ray keeps its direction, but for roughness
+        none,   ///< no change of medium: the ray continues straight
+        thin,   ///< a thin sheet: the ray keeps its direction, except for roughness
         outer,  ///< from air into a volume
         inner,  ///< from inside a volume, into air or another volume
     };
@@ -29,16 +28,16 @@ struct Boundary {
     float far = 1.0F;   ///< on the other side
 };
 
-/// Reflectance of a smooth boundary as by Schlick (1994), from the side with that cosine. eta: index of the far side
-/// over that of the near side. 1: total internal reflection.
+/// Reflectance of a smooth boundary by Schlick (1994). cosine: on the near side. eta: index of refraction of the far
+/// side over that of the near side. Returns 1 for total internal reflection.
 float boundaryReflectance(float cosine, float eta, float f0, float f90);
 
-/// The direction on the other side of light that arrives against v at a surface of normal h, dot(v, h) > 0; nullopt:
-/// total internal reflection. All unit.
+/// Refracts direction v at a surface of normal h, dot(v, h) > 0: the direction on the other side. nullopt: total
+/// internal reflection. All unit.
 std::optional<vec3> refracted(const vec3& v, const vec3& h, float eta);
 
-/// A lobe at a boundary, for light toward `view`, z > 0, in the frame of the surface. An outer or a thin one only
-/// transmits, because the surface's specular lobe reflects; an inner one does both.
+/// A lobe at a boundary, for light toward `view`, z > 0, in the surface's frame. Outer and thin boundaries only
+/// transmit, because the surface's specular lobe reflects; inner ones do both.
 class GlassLobe {
 public:
     struct Sample {
@@ -47,13 +46,13 @@ public:
     };
 
     GlassLobe() = default;
-    /// alpha: of GGX. f0, f90: reflectance at normal and grazing incidence.
+    /// alpha: GGX width. f0, f90: reflectance at normal and grazing incidence.
     GlassLobe(const Boundary& boundary, const vec3& view, float alpha, float f0, float f90);
 
     [[nodiscard]] bool delta() const { return straight_ || smooth_; }
-    /// Pdf of sample() per solid angle, and so the lobe's BSDF times cosine; 0 of delta lobes.
+    /// Pdf of sample() per solid angle, which equals the lobe's BSDF times cosine; 0 for delta lobes.
     [[nodiscard]] float pdf(const vec3& direction) const;
-    /// choice: between reflection and transmission, in [0, 1).
+    /// choice: selects reflection or transmission, in [0, 1).
     [[nodiscard]] Sample sample(float choice, const vec2& u) const;
 
 private:
@@ -67,7 +66,7 @@ private:
     float eta_ = 1.0F;
     float f0_ = 0.0F;
     float f90_ = 0.0F;
-    bool straight_ = true;  ///< no direction changes, whatever the roughness
+    bool straight_ = true;  ///< directions do not change, whatever the roughness
     bool smooth_ = true;
 };
 
@@ -78,27 +77,28 @@ struct Medium {
     vec3 extinction{0.0F};    ///< per metre
     float dispersion = 0.0F;  ///< Transmission::dispersion
 
-    /// Its index of refraction for red, green or blue light: 0, 1 or 2. (KHR_materials_dispersion: (ior - 1) / Abbe
-    /// number between red and blue)
+    /// Index of refraction for red, green or blue light (channel 0, 1 or 2). (KHR_materials_dispersion: (ior - 1) /
+    /// Abbe number between red and blue)
     [[nodiscard]] float iorOf(uint32_t channel) const {
         return std::max(ior + (ior - 1.0F) * dispersion * 0.025F * (static_cast<float>(channel) - 1.0F), 1.0F);
     }
 };
 
-/// The volumes around a ray. The one that was entered last counts where several overlap; more than fit are left out.
+/// The stack of volumes around a ray. Where several overlap, the last one entered counts; those that do not fit are
+/// ignored.
 class Media {
 public:
     void enter(const Medium& medium);
-    /// Of the light of that channel alone, in all these volumes (Medium::iorOf). Call it only once.
+    /// Sets all indices of refraction to those of one colour channel (Medium::iorOf). Call it only once.
     void disperse(uint32_t channel);
     void leave(uint32_t instance);
 
-    /// That of the innermost volume, or of air.
+    /// Index of refraction of the innermost volume, or of air.
     [[nodiscard]] float ior() const { return count_ > 0 ? stack_[count_ - 1].ior : 1.0F; }
     [[nodiscard]] bool inside() const { return count_ > 0; }
     /// Share of the light that is left after `distance` metres. (A. Beer, 1852)
     [[nodiscard]] vec3 transmittance(float distance) const;
-    /// What a ray crosses on the outside of the volume, or on its inside.
+    /// The boundary that a ray crosses at the volume's surface, from outside (front) or inside.
     [[nodiscard]] Boundary boundary(const Medium& volume, bool front) const;
 
 private:

@@ -1,4 +1,4 @@
-// Chooses one of many emissive triangles for a point.
+// Many-light sampling: chooses one of many emissive triangles for a point.
 #pragma once
 
 #include "base/math.h"
@@ -10,10 +10,10 @@
 
 namespace reflet {
 
-/// Where light is received.
+/// A point that receives light.
 struct LightReceiver {
     vec3 position{0.0F};
-    vec3 normal{0.0F};  ///< unit: light comes from its side alone; 0: from everywhere
+    vec3 normal{0.0F};  ///< unit: light arrives only from its side; 0: from everywhere
 };
 
 /// A triangle with uniform emission. Degenerate ones are never chosen.
@@ -26,10 +26,10 @@ struct TriangleLight {
     float power = 0.0F;      ///< in any unit; 0: never chosen
 };
 
-/// A tree over triangles. A choice descends from the root, at each node in proportion to estimates of what both halves
-/// give to the receiver: power, cosines bounded by the half's sphere and cone of normals, inverse square of the
-/// distance. Where no light can arrive from, the probability is 0. A. Conty Estevez and C. Kulla: Importance Sampling
-/// of Many Lights with Adaptive Tree Splitting (HPG 2018).
+/// A tree over triangles. Sampling descends from the root, and picks each child in proportion to an estimate of its
+/// light at the receiver: power, cosines bounded by the child's sphere and cone of normals, inverse square of the
+/// distance. Lights that cannot reach the receiver have probability 0. A. Conty Estevez and C. Kulla: Importance
+/// Sampling of Many Lights with Adaptive Tree Splitting (HPG 2018).
 class LightTree {
 public:
     LightTree() = default;
@@ -37,10 +37,10 @@ public:
 
     [[nodiscard]] bool empty() const { return nodes_.empty(); }
     struct Choice {
-        uint32_t light = 0;  ///< in the constructor's list
+        uint32_t light = 0;  ///< index into the constructor's list
         float probability = 0.0F;
     };
-    /// u: in [0, 1). None: no light arrives.
+    /// Samples a light; u in [0, 1). nullopt: no light arrives.
     [[nodiscard]] std::optional<Choice> draw(const LightReceiver& at, float u) const;
     /// Probability that draw() returns the light.
     [[nodiscard]] float probability(const LightReceiver& at, uint32_t light) const;
@@ -48,27 +48,27 @@ public:
 private:
     struct Node {
         vec3 center{0.0F};
-        float radius = 0.0F;     ///< of a sphere around all triangles
-        vec3 axis{0.0F};         ///< of a cone around all normals
-        float cosSpread = 1.0F;  ///< of the angle between its axis and its side; -1: any direction
+        float radius = 0.0F;     ///< radius of a sphere around all triangles
+        vec3 axis{0.0F};         ///< axis of a cone around all normals
+        float cosSpread = 1.0F;  ///< cosine of the cone's half angle; -1: any direction
         float power = 0.0F;
-        bool bothSides = false;  ///< of any triangle
-        uint32_t first = 0;      ///< child, after which the second follows; 0: a leaf
-        uint32_t light = 0;      ///< of a leaf
+        bool bothSides = false;  ///< any triangle emits on both sides
+        uint32_t first = 0;      ///< index of the first child, followed by the second; 0: a leaf
+        uint32_t light = 0;      ///< index of a leaf's light
         uint32_t parent = 0;
     };
 
     class Builder;
     struct Cone;
 
-    static constexpr uint32_t noLeaf = ~0U;  ///< of a light that is never chosen
+    static constexpr uint32_t noLeaf = ~0U;  ///< marks a light that is never chosen
 
     // The smallest cone around both.
     [[nodiscard]] static Cone around(Cone a, Cone b);
     [[nodiscard]] static float estimate(const Node& node, const LightReceiver& at);
 
     std::vector<Node> nodes_;     ///< the root is the first
-    std::vector<uint32_t> leaf_;  ///< by light
+    std::vector<uint32_t> leaf_;  ///< leaf node of each light
 };
 
 }  // namespace reflet

@@ -58,25 +58,25 @@ public:
     [[nodiscard]] LightSample drawEmitter(const SurfacePoint& point, float choice, const vec2& u) const;
 
     [[nodiscard]] vec3 environment(const vec3& direction) const;
-    /// Pdfs of drawEmitter for what a scattered ray has hit.
+    /// Pdfs of drawEmitter for hits of scattered rays, for multiple importance sampling.
     [[nodiscard]] float environmentPdf(const vec3& direction) const;
     [[nodiscard]] float emitterPdf(const LightReceiver& from, const SurfacePoint& emitter) const;
 
-    /// What drawEmitter samples for.
+    /// The receiver that drawEmitter samples for.
     [[nodiscard]] static LightReceiver receiver(const SurfacePoint& point);
 
 private:
     void collectTriangles();
     void prepareEnvironment();
     [[nodiscard]] LightSample drawTriangle(const SurfacePoint& point, float choice, const vec2& u) const;
-    // chance: of the triangle.
+    // chance: probability of the triangle.
     [[nodiscard]] float trianglePdf(const vec3& from, const SurfacePoint& emitter, float chance) const;
     [[nodiscard]] LightSample drawEnvironment(float choice, const vec2& u) const;
 
     const RayScene& rays_;
     mat3 sunFrame_{1.0F};  ///< the last column points to the sun's centre
     vec3 sunIrradiance_;
-    float sunSine_;            ///< sine of its angular radius
+    float sunSine_;            ///< sine of the sun's angular radius
     std::vector<Lamp> lamps_;  ///< with the view's radius
     Environment environment_;
 
@@ -88,7 +88,7 @@ private:
     std::vector<EmissiveTriangle> emissive_;
     std::vector<std::vector<uint32_t>> emissiveIndex_;  ///< by instance (empty: not emissive) and triangle
     LightTree tree_;                                    ///< over emissive_
-    Distribution texels_;                               ///< of the environment's image
+    Distribution texels_;                               ///< over the texels of the environment's image
     float environmentChance_ = 0.0F;                    ///< probability that drawEmitter chooses the environment image
 };
 

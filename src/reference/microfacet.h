@@ -17,7 +17,7 @@ inline float square(float x) {
     return x * x;
 }
 
-/// Fresnel, Schlick 1994: F0 + (F90 - F0) · this.
+/// Weight of Schlick's Fresnel (1994): F = F0 + (F90 - F0) · schlick(cosine).
 inline float schlick(float cosine) {
     const float rest = std::clamp(1.0F - cosine, 0.0F, 1.0F);
     return square(square(rest)) * rest;

@@ -17,7 +17,7 @@ struct PathSample {
     vec3 indirectSpecular{0.0F};
     vec3 albedo{0.0F};
     float sunVisibility = 1.0F;
-    float ambientVisibility = 1.0F;  ///< of one cosine-distributed ray; 1 unless it is traced
+    float ambientVisibility = 1.0F;  ///< visibility along one cosine-distributed ray; 1 unless it is traced
     bool background = false;         ///< the camera sees no surface
     uint32_t rays = 0;               ///< rays traced
 
@@ -46,7 +46,7 @@ private:
     void addLamps(Walk& walk, const Bsdf& bsdf) const;
     void addSunInMirrors(Walk& walk, const Bsdf& bsdf) const;
     void addEmitters(Walk& walk, const Bsdf& bsdf) const;
-    /// False if the path ends here. spent: it may only go on through glass.
+    /// Returns false if the path ends here. spent: out of bounces, so the path may only continue through glass.
     [[nodiscard]] bool step(Walk& walk, const Bsdf& bsdf, bool spent) const;
     [[nodiscard]] float ambientVisibility(Walk& walk) const;
     [[nodiscard]] bool cameraSees(Walk& walk, const SurfacePoint& point) const;
@@ -57,10 +57,10 @@ private:
     CameraRays camera_;
     Lights lights_;
     SunMirrors mirrors_;
-    Environment behind_;  ///< what the camera sees where there is no surface
+    Environment behind_;  ///< background that the camera sees where there is no surface
     ReferenceOptions options_;
     bool glass_;   ///< any surface of the scene is transmissive
-    Media media_;  ///< that the camera is in
+    Media media_;  ///< media that the camera is in
 };
 
 }  // namespace reflet

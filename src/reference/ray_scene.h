@@ -12,7 +12,7 @@ namespace reflet {
 
 struct Ray {
     vec3 origin{0.0F};
-    vec3 direction{0.0F};  ///< of any length, which is the unit of distances
+    vec3 direction{0.0F};  ///< any length; it is the unit of distances
     float near = 0.0F;
     float far = std::numeric_limits<float>::infinity();
     /// Decides, with a hash of the triangle, which blended surfaces the ray passes through (stochastic transparency).
@@ -22,7 +22,7 @@ struct Ray {
 
 enum class RayKind : uint8_t {
     camera,  ///< ignores the back faces of single-sided surfaces
-    inside,  ///< of a camera inside a volume of glass: the same, but hits the back faces of such volumes
+    inside,  ///< for a camera inside a volume of glass: as `camera`, but hits the back faces of such volumes
     light,   ///< hits both sides of all surfaces
 };
 

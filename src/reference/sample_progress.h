@@ -11,8 +11,8 @@ namespace reflet {
 /// The largest number of samples per pixel that can be requested.
 constexpr uint32_t largestSamples = 1U << 20U;
 
-/// Shows how many samples are done. The number that a target noise takes is estimated: noise falls with the square root
-/// of the samples.
+/// Shows how many samples are done. The number of samples for a target noise is estimated: noise falls with the square
+/// root of the samples.
 class SampleProgress {
 public:
     /// `options` must outlive it.

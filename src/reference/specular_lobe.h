@@ -13,25 +13,25 @@ struct Reflectance {
     float f90 = 1.0F;
 };
 
-/// Light that a layer reflects toward a viewer. Directions are in the world.
+/// The BRDF of a layer toward a viewer. Directions are in world space.
 class SpecularLobe {
 public:
     SpecularLobe() = default;
-    /// alpha: along tangent and bitangent; albedo: the share of the light that the layer reflects; table: that of
+    /// alpha: GGX width along tangent and bitangent; albedo: directional albedo of the layer; table: the same for
     /// single scattering.
     SpecularLobe(const mat3& frame, const vec3& view, const vec2& alpha, const Reflectance& reflectance,
                  const vec3& albedo, const LobeAlbedo& table);
 
     [[nodiscard]] bool mirror() const { return std::max(alpha_.x, alpha_.y) < mirrorAlpha; }
-    /// BRDF · cosine with at least that alpha; 0 from below the surface, and of mirrors unless `leastAlpha` widens
-    /// them.
+    /// BRDF · cosine, with alpha at least `leastAlpha`; 0 from below the surface, and for mirrors unless `leastAlpha`
+    /// widens them.
     [[nodiscard]] vec3 reflect(const vec3& toLight, float leastAlpha = 0.0F) const;
-    /// Pdf of sample(); 0 of mirrors.
+    /// Pdf of sample(); 0 for mirrors.
     [[nodiscard]] float pdf(const vec3& direction) const;
-    /// May be below the surface, where nothing is reflected.
+    /// Samples a direction. It may be below the surface, where nothing is reflected.
     [[nodiscard]] vec3 sample(const vec2& u) const;
     [[nodiscard]] bool above(const vec3& direction) const { return glm::dot(direction, frame_[2]) > 0.0F; }
-    /// Share of the light from its only direction that a mirror reflects.
+    /// Reflectance of a mirror, for its single light direction.
     [[nodiscard]] vec3 mirrorShare() const;
 
 private:
@@ -46,7 +46,7 @@ private:
     vec3 compensation_{0.0F};
 };
 
-/// A direction in the frame, kept from facing away, as shading normals may.
+/// The direction to the viewer in the frame, clamped so as not to face away, as shading normals may.
 vec3 viewIn(const mat3& frame, const vec3& toViewer);
 
 }  // namespace reflet

@@ -22,7 +22,7 @@ struct SheenPoint {
 
 /// KHR_materials_anisotropy at a point: GGX's alpha along the direction and across it.
 struct AnisotropyPoint {
-    vec3 direction{0.0F};  ///< unit, perpendicular to the shading normal; 0: the reflection is isotropic
+    vec3 direction{0.0F};  ///< unit, perpendicular to the shading normal; 0: isotropic
     vec2 alpha{1.0F};
 };
 
@@ -34,8 +34,8 @@ struct SurfacePoint {
     vec3 baseColor{0.0F};
     float roughness = 1.0F;  ///< perceptual
     float metallic = 0.0F;
-    Reflectance dielectric{vec3(0.04F), 1.0F};  ///< in air, as far as the material is not metallic
-    vec3 specularTint{1.0F};                    ///< of its reflectance at normal incidence
+    Reflectance dielectric{vec3(0.04F), 1.0F};  ///< of the material's dielectric part, in air
+    vec3 specularTint{1.0F};                    ///< tint of its reflectance at normal incidence
     float specularStrength = 1.0F;
     float transmission = 0.0F;  ///< share of the light in the base that passes the surface; 0: opaque
     bool bounded = false;       ///< the surface bounds a volume
@@ -44,15 +44,15 @@ struct SurfacePoint {
     SheenPoint sheen;
     AnisotropyPoint anisotropy;
     vec3 diffuseTransmission{0.0F};         ///< albedo of the diffuse light that leaves on the other side
-    float diffuseTransmissionShare = 0.0F;  ///< of the diffuse light; 0: none
+    float diffuseTransmissionShare = 0.0F;  ///< transmitted share of the diffuse light; 0: none
     bool unlit = false;                     ///< reflects nothing
     vec3 emission{0.0F};     ///< radiance toward the ray's origin; 0 from the back of single-sided surfaces
     float clearance = 0.0F;  ///< offset of new rays from the surface, to avoid self-intersection [m]
     bool front = true;       ///< the ray hit the front face
     Hit hit;
 
-    /// Reflectance between media of these indices of refraction. Of glass, that at grazing incidence vanishes with the
-    /// difference of the indices: two that are equal do not reflect at all.
+    /// Reflectance between media of these indices of refraction. For glass, F90 vanishes with the difference of the
+    /// indices: equal media do not reflect at all.
     [[nodiscard]] Reflectance dielectricBetween(float near, float far) const;
 
     /// Origin of a ray to `direction`.
@@ -61,8 +61,8 @@ struct SurfacePoint {
     }
 };
 
-/// The shading normal, or if its mirror direction is below the surface, one bent toward the geometric normal until it
-/// is just above: nothing faces away from the viewer. Specified in src/shaders/shading_normal.glsl. All unit,
+/// The shading normal; if its mirror direction is below the surface, it is bent toward the geometric normal until that
+/// is just above, so that it never faces away from the viewer. Specified in src/shaders/shading_normal.glsl. All unit,
 /// `geometric` on the viewer's side.
 vec3 consistentNormal(const vec3& normal, const vec3& geometric, const vec3& toViewer);
 
@@ -74,7 +74,7 @@ SurfacePoint surfaceAt(const RayScene& rays, const Hit& hit, const vec3& directi
 /// Whether the material's alpha is below its cutoff there; below `blendedCutoff` if it is blended.
 bool isCutOut(const RayScene& rays, const Hit& hit, float blendedCutoff);
 
-/// Share of the surface that is there: 1, alpha of blended surfaces, 0 where it is cut out.
+/// Coverage of the surface: 1, alpha for blended surfaces, 0 where it is cut out.
 float coverageAt(const RayScene& rays, const Hit& hit);
 
 /// Textured emission of the front face.

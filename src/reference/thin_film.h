@@ -10,9 +10,9 @@ struct ThinFilm {
     float ior = 1.3F;
     float thickness = 0.0F;  ///< [nm]
 
-    /// For light that comes through air at that angle. f0: of the surface beneath, in air, 0..1.
+    /// Reflectance for light that comes through air at that angle. f0: of the surface beneath, in air, 0..1.
     [[nodiscard]] vec3 reflectance(float cosine, const vec3& f0) const;
-    /// The reflectance at normal incidence with which Schlick's approximation is right at that angle.
+    /// The F0 for which Schlick's approximation is exact at that angle.
     [[nodiscard]] vec3 f0At(float cosine, const vec3& f0) const;
 };
 

@@ -7,14 +7,14 @@
 
 namespace reflet {
 
-/// What a ray in these media crosses at the point.
+/// The boundary that a ray in these media crosses at the point.
 Boundary boundaryAt(const SurfacePoint& point, const Media& media);
 
-/// Follows a ray through the point's surface.
+/// Updates the media of a ray that passes through the point's surface.
 void cross(Media& media, const SurfacePoint& point);
 
-/// Share of the light that arrives along a straight ray: glass attenuates it by Fresnel's reflection, its base colour
-/// and its volume, and everything else blocks it. media: those at the ray's origin.
+/// Transmittance along a straight ray: glass attenuates by Fresnel reflection, base colour and volume absorption;
+/// everything else blocks. media: those at the ray's origin.
 vec3 straightTransmittance(const RayScene& rays, Ray ray, RayKind kind, Media media);
 
 }  // namespace reflet

@@ -1,5 +1,5 @@
-// Reads a shader's interface from its SPIR-V, with spirv-cross: while building, for the tables that are embedded beside
-// the SPIR-V, and for shaders that were edited while the program runs. The library itself needs no reflection.
+// Reflects a shader's interface from its SPIR-V, with spirv-cross: at build time, for the tables that are embedded
+// beside the SPIR-V, and at run time for edited shaders (hot reload). The library itself needs no reflection.
 #pragma once
 
 #include "gpu/shader.h"
@@ -10,7 +10,7 @@
 
 namespace reflet::reflection {
 
-/// Throws std::logic_error for words that are not SPIR-V, or have a kind of resource that Reflet does not use.
+/// Throws std::logic_error if the words are not SPIR-V, or use a kind of resource that Reflet does not support.
 gpu::ReflectedShader reflectShader(std::string_view name, std::vector<uint32_t> words);
 
 }  // namespace reflet::reflection

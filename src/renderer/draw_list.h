@@ -29,16 +29,16 @@ struct Draw {
     mat4 previousObjectToWorld{1.0F};
     Aabb boundsW;
     std::span<const Aabb> pieces;       ///< bounds of its parts, in object space; empty: only boundsW is known
-    std::span<const DrawLevel> levels;  ///< from fine to coarse; empty: always drawn as it is
+    std::span<const DrawLevel> levels;  ///< from fine to coarse; empty: always drawn at full detail
     VkDescriptorSet material = VK_NULL_HANDLE;
     bool masked = false;               ///< has an alpha cutoff
     bool blended = false;              ///< alpha is coverage; masked, too
     bool glass = false;                ///< transmissive
     bool coated = false;               ///< has a clear coat
     bool diffuseTransmission = false;  ///< transmits diffuse light
-    float alpha = 1.0F;                ///< of blended draws: the largest that occurs, or more
+    float alpha = 1.0F;                ///< blended draws: upper bound of alpha
     bool doubleSided = false;
-    bool emitter = false;     ///< lamps stand for what it emits
+    bool emitter = false;     ///< lamps replace its emission
     bool turnedOver = false;  ///< its triangles have clockwise winding in object space
 };
 
@@ -49,18 +49,18 @@ struct DrawList {
     VkBuffer indices = VK_NULL_HANDLE;            ///< uint32
     VkDescriptorSetLayout materialLayout = VK_NULL_HANDLE;
     std::vector<Draw> draws;
-    Aabb boundsW;                          ///< of all
+    Aabb boundsW;                          ///< bounds of all draws, world space
     uint32_t textureSlots = 0;             ///< bit mask of the slots for which any material has a texture (material.h)
     uint32_t materialFeatures = 0;         ///< bit mask of materialFeature… that any material has (material.h)
     bool unlit = false;                    ///< nothing reflects light
     bool glass = false;                    ///< some draws are transmissive
-    bool frosted = false;                  ///< some of these are rough
-    bool dispersive = false;               ///< some of these disperse light
-    bool murky = false;                    ///< some of these are opaque in part
+    bool frosted = false;                  ///< some transmissive draws are rough
+    bool dispersive = false;               ///< some transmissive draws disperse light
+    bool murky = false;                    ///< some transmissive draws are partly opaque
     bool coated = false;                   ///< some draws have clear coats
     bool diffuseTransmission = false;      ///< some draws transmit diffuse light
-    bool coatedGlass = false;              ///< some of these are transmissive
-    bool coatedBlended = false;            ///< some of these are blended
+    bool coatedGlass = false;              ///< some coated draws are transmissive
+    bool coatedBlended = false;            ///< some coated draws are blended
     std::vector<gpu::Image> livePictures;  ///< camera images shown by materials, written by passes
     /// Changes whenever the draws' geometry or transforms change. 0: treat as always changed.
     uint64_t version = 0;
@@ -71,8 +71,8 @@ const gpu::VertexLayout& vertexLayout();
 
 enum class Cull : uint8_t {
     none,
-    back,   ///< of single-sided draws
-    front,  ///< of all draws
+    back,   ///< back faces of single-sided draws
+    front,  ///< front faces of all draws
 };
 
 struct DrawFilter {
@@ -80,20 +80,20 @@ struct DrawFilter {
     Cull cull = Cull::back;
     bool bindMaterials = true;            ///< false if the pipeline has no descriptor set 1
     mat4 worldToClip{1.0F};               ///< for frustum culling
-    vec2 pixels{0.0F};                    ///< size of the viewport, for the level of detail; 0: the finest
+    vec2 pixels{0.0F};                    ///< size of the viewport, for the level of detail; 0: the finest level
     uint32_t instance = 0;                ///< the shader's gl_InstanceIndex
-    std::optional<uint32_t> bothSides{};  ///< index of a draw of which Cull::back keeps the back faces
+    std::optional<uint32_t> bothSides{};  ///< index of a draw whose back faces Cull::back keeps
 };
 
-/// The level of detail to draw: the coarsest whose surface is less than a tenth of a pixel away from the mesh's, and,
-/// if materials are bound, whose edges are shorter than two pixels, because attributes are interpolated along them.
-/// Null: the draw itself.
+/// The level of detail (LOD) to draw: the coarsest whose surface is less than a tenth of a pixel away from the mesh's,
+/// and, if materials are bound, whose edges are shorter than two pixels, because attributes are interpolated along
+/// them. Null: full detail.
 const DrawLevel* levelFor(const Draw& draw, const DrawFilter& filter);
 
 /// Whether recordDraws would record any draw.
 bool anyDraws(const DrawList& list, const DrawFilter& filter);
 
-/// Sets viewport and scissor to a square tile of the target, `side` pixels a side; tile: its column and row.
+/// Sets viewport and scissor to a square tile of the target, side · side pixels; tile: its column and row.
 void drawIntoTile(const gpu::DrawCommands& to, const uvec2& tile, uint32_t side);
 
 /// Records the draws that pass the filter. Push constants of the vertex shader: objectToWorld and, with

@@ -1,4 +1,4 @@
-// Lamps that stand for the scene's small bright emissive surfaces (scene/emitters.h).
+// Lamps that replace the emission of the scene's small bright emissive surfaces (scene/emitters.h).
 #pragma once
 
 #include "effects/lamps.h"

@@ -29,18 +29,18 @@ struct TextureFilter {
     bool operator==(const TextureFilter&) const = default;
 };
 
-/// Of a lamp that casts no shadow.
+/// Shader parameters of a lamp, without shadow.
 LampParams lampParams(const Lamp& lamp);
 
 class GpuScene {
 public:
-    /// Uploads everything. `warn` receives messages about what is left out (of more than maxLamps lamps, the weakest).
+    /// Uploads everything. `warn` receives messages about parts left out (of more than maxLamps lamps, the weakest).
     GpuScene(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn);
     ~GpuScene();
     GpuScene(const GpuScene&) = delete;
     GpuScene& operator=(const GpuScene&) = delete;
 
-    /// Filters the textures of materials as the settings say. No frame that draws the scene may be in flight.
+    /// Sets the filtering of material textures. No frame that draws the scene may be in flight.
     void setTextureFilter(const TextureFilter& filter);
 
     /// Sets the current and the previous pose of draws, lamps and live cameras. Deformed vertices follow with skin().
@@ -55,8 +55,8 @@ public:
 
     /// The image of a camera that a material shows.
     struct LivePicture {
-        Camera camera;         ///< as the scene has it
-        Camera posed;          ///< where it is now
+        Camera camera;         ///< as in the scene
+        Camera posed;          ///< at the current pose
         gpu::Texture texture;  ///< RGBA16F, 16:9
         bool fresh = true;     ///< not yet rendered
     };
@@ -66,9 +66,9 @@ public:
     /// emitters: includes the lamps that replace small bright emitters.
     [[nodiscard]] LampBlock lamps(bool emitters) const;
     [[nodiscard]] const EmitterLamps& emitters() const { return *emitters_; }
-    /// A material as shaders have it. index: in the scene.
+    /// Shader parameters of a material. index: in the scene.
     [[nodiscard]] MaterialParams paramsOf(const Material& material, uint32_t index) const;
-    /// For ray hits: VertexAttributes and indices of all meshes, one after another; indices are relative to their mesh.
+    /// For ray hits: VertexAttributes and indices of all meshes, concatenated; indices are relative to their mesh.
     [[nodiscard]] gpu::BufferView attributes() const { return attributes_.view(); }
     [[nodiscard]] gpu::BufferView indices() const { return indices_.view(); }
 
@@ -93,7 +93,7 @@ private:
     // The contents of a material's descriptor set.
     struct MaterialBinding {
         VkDescriptorSet set = VK_NULL_HANDLE;
-        VkDeviceSize offset = 0;  ///< of its MaterialParams in materials_
+        VkDeviceSize offset = 0;  ///< offset of its MaterialParams in materials_
         std::array<gpu::SamplerInfo, slotCount> samplers;
         std::array<VkImageView, slotCount> views{};
         std::optional<size_t> live;  ///< index of the live image in the emissive slot
@@ -102,17 +102,17 @@ private:
     void writeMaterialSet(const MaterialBinding& binding);
 
     gpu::Device& device_;
-    gpu::Buffer positions_;          ///< of meshes, then of deformed instances
+    gpu::Buffer positions_;          ///< vertices of meshes, then of deformed instances
     gpu::Buffer previousPositions_;  ///< same count; none without deformed instances
     gpu::Buffer attributes_;         ///< same count
     gpu::Buffer indices_;
     gpu::Buffer materials_;  ///< mapped if materials are animated
     std::vector<MeshRange> ranges_;
     std::vector<std::vector<Aabb>> pieces_;       ///< meshPieces of every mesh
-    std::vector<std::vector<DrawLevel>> levels_;  ///< of every mesh
+    std::vector<std::vector<DrawLevel>> levels_;  ///< levels of detail of every mesh
     SkinnedVertices skinned_;
     std::map<size_t, int32_t> skinnedFirst_;                     ///< first vertex of a deformed instance
-    std::map<size_t, std::vector<Aabb>> skinnedBounds_;          ///< by joint, of a deformed instance
+    std::map<size_t, std::vector<Aabb>> skinnedBounds_;          ///< bounds per joint of a deformed instance
     std::map<std::pair<int32_t, bool>, gpu::Texture> textures_;  ///< by image and sRGB
     VkDescriptorSetLayout materialLayout_ = VK_NULL_HANDLE;
     VkDescriptorPool materialPool_ = VK_NULL_HANDLE;

@@ -12,15 +12,15 @@ namespace reflet {
 /// Remembers the lights of the last frame.
 class LightChange {
 public:
-    /// The share of the light that has changed since the last call, 0 to 1, with its echoes in the frames after; 0 at
-    /// the first one. What is lit by a lamp that moves by a metre or turns by ten degrees counts as changed, and by
-    /// part of that as changed in part.
+    /// The share of the light that has changed since the last call, 0 to 1, decaying over the frames after a change; 0
+    /// at the first call. Light of a lamp that moves by a metre or turns by ten degrees counts as fully changed;
+    /// smaller movements count proportionally.
     float update(const LampBlock& lamps, const View& view);
     void forget() { *this = {}; }
 
 private:
     struct Light {
-        vec3 intensity;  ///< as of LampParams; of the sun: what a lamp would need that is as bright 5 m away
+        vec3 intensity;  ///< as in LampParams; sun: intensity of a lamp with the same irradiance from 5 m away
         vec3 position;
         vec3 toLight;
     };

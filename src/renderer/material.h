@@ -31,14 +31,14 @@ const uint slotDiffuseTransmissionColor = 18;
 const uint slotCount = 19;
 const uint sceneSlotCount = 8;  // the first ones, which ray hits read
 
-// Alpha from which blended surfaces are opaque, 254.5 / 255, and below which they are not there.
+// Alpha from which blended surfaces count as opaque, 254.5 / 255, and below which they are skipped.
 const float opaqueAlpha = 0.998;
 const float invisibleAlpha = 0.002;
 
-// Relative difference of depths that counts as none in depth peeling.
+// Relative difference of depths that depth peeling treats as equal.
 const float peelTolerance = 1e-6;
 
-// A transmissive material, in images: a number of its own from 1 in the lower bits, and its dispersion.
+// glassKind: a transmissive material in images, as a unique number from 1 in the lower bits, and its dispersion above.
 const uint glassKindBits = 20;
 const float glassDispersionSteps = 100.0;  // per 1
 
@@ -54,15 +54,15 @@ struct MaterialParams {
     uint secondUv;       // bit per slot: uses uv1
     uint blended;        // 1: alpha is coverage (Material::blended)
     uint unlit;          // 1: emits its base colour and reflects nothing
-    vec3 f0;             // of the dielectric, over dielectricF0, without the factor that follows
-    float f90;           // of the dielectric, 0..1; a factor of F0, too
+    vec3 f0;             // F0 of the dielectric, over dielectricF0, without the factor f90
+    float f90;           // F90 of the dielectric, 0..1; also a factor of F0
     vec3 uvRows[38];     // two per slot, KHR_texture_transform
     float transmission;  // share of the light in the dielectric's base that passes the surface, 0: opaque
     float ior;
-    vec3 extinction;      // of the volume beneath [1/m]
-    float thickness;      // of that volume [m in object space]; 0: none, a sheet
+    vec3 extinction;      // extinction of the volume beneath [1/m]
+    float thickness;      // thickness of that volume [m in object space]; 0: no volume, a thin sheet
     uint glass;           // glassKind of a transmissive material, else 0
-    float coat;           // share of the surface beneath a clear coat, 0: none
+    float coat;           // share of the surface that a clear coat covers, 0: none
     float coatRoughness;  // perceptual
     float coatNormalScale;
     vec3 sheenColor;
@@ -70,8 +70,8 @@ struct MaterialParams {
     vec2 anisotropyAlong;      // direction of the anisotropy along tangent and bitangent, unit
     float anisotropy;          // its strength, 0..1
     float preExposed;          // 1: `emissive` is a live picture, whose radiance is pre-exposed; else 0
-    uint emitter;              // 1: findEmitters has what it emits
-    vec4 film;                 // thin film: share that it covers, index of refraction, least and largest thickness [nm]
+    uint emitter;              // 1: lamps from findEmitters replace its emission
+    vec4 film;                 // thin film: coverage, index of refraction, least and largest thickness [nm]
     vec4 diffuseTransmission;  // its colour, and the share of the diffuse light that leaves on the other side
 };
 
@@ -91,7 +91,7 @@ std::array<const TextureSlot*, slotCount> textureSlots(const Material& material)
 /// Whether the slot's colours are sRGB.
 bool isSrgb(uint slot);
 
-/// number: of the material, from 1.
+/// The value of MaterialParams::glass. number: of the material, from 1.
 uint glassKind(const Material& material, uint number);
 
 MaterialParams materialParams(const Material& material);

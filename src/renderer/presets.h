@@ -17,12 +17,12 @@ std::span<const EmbeddedFile> embeddedPresets();
 struct Preset {
     std::string name;
     std::string description;
-    std::string json;  ///< on one line, without the description
-    bool study;        ///< shows a single method, rather than being the best that its time allows
+    std::string json;  ///< settings on one line, without the description
+    bool study;        ///< demonstrates a single method, instead of the best quality for its cost
 };
 
-/// Those to render with first: that of finished pictures, then from the fastest to the most exact; then those for
-/// study, by name.
+/// All presets, those for rendering first: the one for finished pictures, then from the fastest to the most exact;
+/// last, those for study, by name.
 std::vector<Preset> presets();
 
 /// The preset that programs use by default.

@@ -1,6 +1,6 @@
-// The sun as flat mirrors reflect it onto other surfaces: for each mirror a light that shines through the mirror's
-// rectangle, as the sun of a mirrored world through a window. Diffuse rays would find this light only where they hit a
-// mirror and look straight at the sun in it, so almost never: in a room with a mirror floor it is a sixth of all light.
+// Sunlight that flat mirrors reflect onto other surfaces: for each mirror, a light that shines through the mirror's
+// rectangle, as the sun of a mirrored world through a window. Diffuse rays almost never find this light, because they
+// would have to hit a mirror in the sun's exact direction; in a room with a mirror floor it is a sixth of all light.
 #pragma once
 
 #include "effects/lamps.h"
@@ -11,8 +11,9 @@
 
 namespace reflet {
 
-/// toSun: unit. irradiance: on a surface that faces the sun [W/m²]. angularDiameter: of the sun [rad]. The `count`
-/// mirrors that reflect most light, of those that are smooth and reflect at least a tenth. Curved mirrors have none.
+/// Lights for the `count` mirrors that reflect the most light, among those that are smooth and reflect at least a
+/// tenth. Curved mirrors have none. toSun: unit. irradiance: on a surface that faces the sun [W/m²]. angularDiameter:
+/// of the sun [rad].
 std::vector<LampParams> reflectedSuns(std::span<const FlatPiece> pieces, const vec3& toSun, const vec3& irradiance,
                                       float angularDiameter, uint32_t count);
 

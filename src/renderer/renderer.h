@@ -27,26 +27,26 @@ public:
     Renderer(gpu::Device& device, const Scene& scene, const std::function<void(const std::string&)>& warn);
     Renderer(gpu::Device& device, const Scene&& scene, const std::function<void(const std::string&)>& warn) = delete;
 
-    /// Records one frame; `after` may record more (read-backs). Returns when the device is done. Motion is that since
-    /// the last frame, whatever its view and time were; in the first frame there is none.
+    /// Renders one frame; `after` may record more passes (read-backs). Returns when the device is done. Motion vectors
+    /// are relative to the last frame, whatever its view and time were; zero in the first frame.
     FrameImages render(const View& asked, uvec2 size, uint32_t seed, const Settings& settings,
                        const std::function<void(gpu::Frame&, const FrameImages&)>& after = {});
 
-    /// From the next frame on, asks `stop` between passes while a frame is computed. If it returns true, render()
-    /// throws gpu::FrameStopped; restart() must be called then. Empty: frames are not stopped. Captures of probes and
+    /// From the next frame on, calls `stop` between passes while a frame is rendered. If it returns true, render()
+    /// throws gpu::FrameStopped; then restart() must be called. Empty: frames are not stopped. Captures of probes and
     /// other preparations are always completed.
     void stopBetweenPasses(std::function<bool()> stop) { stop_ = std::move(stop); }
 
-    /// From the next frame on, motion blur is that of a camera that came from `before`, and of nothing else that moves;
-    /// nullopt: of all motion since the last frame. For frames at rest that stand for one of a film.
+    /// From the next frame on, motion blur shows only camera motion from `before`, and no other motion; nullopt: all
+    /// motion since the last frame. For stills that are frames of a film.
     void blurSince(const std::optional<Camera>& before) { blurSince_ = before; }
 
-    /// Discards all history: the next frame is rendered like a renderer's first, with the noise of the frame of this
-    /// number.
+    /// Discards all history: the next frame is rendered like a renderer's first, with the noise pattern of frame
+    /// `frameNumber`.
     void restart(uint32_t frameNumber);
 
     [[nodiscard]] const gpu::Frame& frame() const { return frame_; }
-    /// From the next frame on, frame().listing() tells the passes.
+    /// Enables frame().listing() from the next frame on.
     void listPasses() { frame_.listPasses(); }
     /// For tests (gpu::Recorder::poisonTransients).
     void poisonTransients(bool poisons) { frame_.poisonTransients(poisons); }
@@ -56,14 +56,14 @@ public:
 private:
     /// Poses the scene at the time of the view.
     void pose(const View& view);
-    /// Lamps and emitters of the scene, with the radii of the view and without those that it switches off.
+    /// Lamps and emitters of the scene, with the view's radii, without those that the view switches off.
     [[nodiscard]] LampBlock ownLamps(const View& view, const Settings& settings) const;
-    /// Chooses the lamps that cast shadows. Gives each warning once.
+    /// Chooses the lamps that cast shadows. Prints each warning once.
     LampShadows planLamps(LampBlock& lamps, const View& view, const ShadowSettings& settings);
     void addReflectedSuns(LampBlock& lamps, const View& view, const Settings& settings) const;
     /// Multiplies the lights by the pre-exposure, and returns it.
     float preExpose(LampBlock& lamps, View& view);
-    /// Discards all images of light of earlier frames.
+    /// Discards all images with light of earlier frames.
     void forgetLight();
 
     /// The BVH for ray tracing, if the settings need one.
@@ -72,9 +72,9 @@ private:
     const std::vector<Probe>& probesOf(const View& view, const ProbesSettings& settings);
     /// The live camera images for the frame of this view.
     std::vector<LiveView> liveViews(const ViewParams& view);
-    /// The view with the suns of its environment's image as lights. others: of these, what is not the view's sun.
+    /// The view with the suns of its environment's image as lights. others: suns besides the view's main sun.
     View withSuns(const View& view, const Settings& settings, std::vector<Lamp>& others);
-    /// Of FrameInputs. startsAgain: animations do, so objects jump back.
+    /// The value of FrameInputs::cameraBefore. startsAgain: animations have looped, so objects jump back.
     [[nodiscard]] std::optional<mat4> cameraBefore(const ViewParams& view, uvec2 size, const Settings& settings,
                                                    bool startsAgain) const;
     /// lit: the view with its suns as lights, whose environment has none.
@@ -90,7 +90,7 @@ private:
     uint32_t tracedTextureSize_ = 0;
     std::vector<FlatPiece> flatPieces_;  ///< at time 0
     std::vector<FlatPiece> posedPieces_;
-    std::optional<ScenePose> pose_;  ///< of the last frame; none before the first one, and of scenes that stand still
+    std::optional<ScenePose> pose_;  ///< pose of the last frame; none before the first one, and for static scenes
     std::optional<double> tracedTime_;
     FrameStore store_;
     gpu::KeptImage ggxTable_{"ggx_table"};
@@ -105,7 +105,7 @@ private:
     Probes probes_;
     RadianceCache cache_;
     std::vector<Probe> placed_;
-    std::optional<uint32_t> placedCount_;  ///< that placed_ were asked for
+    std::optional<uint32_t> placedCount_;  ///< requested number of placed_
     std::function<void(const std::string&)> warn_;
     std::set<std::string> warned_;
     ViewParams nextParams(const View& view, uvec2 size, uint32_t seed, const Settings& settings);
@@ -118,14 +118,14 @@ private:
         uint32_t seed;
     };
 
-    std::optional<Asked> asked_;  ///< of the last frame
+    std::optional<Asked> asked_;  ///< inputs of the last frame
     uint32_t framesBefore_ = 0;   ///< consecutive frames before this one with unchanged view and settings
     LightChange lightChange_;
     PreExposure preExposure_;
     std::optional<mat4> previousWorldToClip_;  ///< without jitter
-    vec2 previousPlace_{0.0F};                 ///< in the pixel, that the last frame looked through
+    vec2 previousPlace_{0.0F};                 ///< subpixel jitter of the last frame, pixels
     std::optional<Camera> blurSince_;
-    std::optional<double> previousTime_;  ///< that the last frame was asked for, not looped [s]
+    std::optional<double> previousTime_;  ///< requested time of the last frame, not looped [s]
     uint32_t frameNumber_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Ray tracing as a source of the frame: passes the frame's view, lights and settings to trace_scene.
+// Ray tracing as a fallback source: passes the frame's view, lights and settings to trace_scene.
 #pragma once
 
 #include "effects/lobe/rays.h"
@@ -7,13 +7,13 @@
 
 namespace reflet {
 
-/// Traces the remaining rays against the BVH, if enabled and there is one. seen: the camera's images of this frame;
-/// screen: the inputs of screen-space tracing for this lobe.
+/// Traces the remaining rays against the BVH, if enabled and built. seen: the camera's images of this frame; screen:
+/// the inputs of screen-space tracing for this lobe.
 void traceSceneFallback(gpu::PassList& f, Rays& rays, const ViewInputs& in, const Settings& settings,
                         const ViewImages& seen, const ScreenImages& screen);
 
-/// Whether paths through the scene are refracted by glass, also those of view rays, instead of the layers' screen-space
-/// refraction: with settings whose rays are for the scene alone and bring all bounces. Not for a camera in a medium.
+/// Whether ray-traced paths, including view rays, are refracted by glass, instead of screen-space refraction in layers:
+/// with settings that trace all rays against the BVH, for all bounces. Not for a camera in a medium.
 bool refractsPaths(const Settings& settings, const ViewInputs& in);
 
 }  // namespace reflet

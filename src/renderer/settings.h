@@ -21,7 +21,7 @@
 
 namespace reflet {
 
-/// Those of the stages, and what a renderer of scenes has besides.
+/// The settings of the stages, and those of the renderer.
 struct Settings : LightingSettings {
     MaterialsSettings materials;
     DepthSettings depth;
@@ -39,10 +39,10 @@ struct Settings : LightingSettings {
 /// Whether a frame with these settings traces rays against the scene's BVH.
 bool tracesScene(const Settings& settings);
 
-/// Whether lamps stand for emitters: diffuse rays are to leave out what these emit, and lamps to have shadows.
+/// Whether lamps replace emitters: requires lamp shadows, and diffuse rays, which then ignore emitters.
 bool lightsByEmitters(const Settings& settings);
 
-/// How many reflected suns there may be: with shadows only.
+/// Maximum number of reflected suns; 0 without lamp shadows or with materials.lambert_only.
 uint32_t mostReflectedSuns(const Settings& settings);
 
 const SettingTable& settingTable();
@@ -50,13 +50,13 @@ const SettingTable& settingTable();
 /// All of them, in the order of the tables.
 const std::vector<SettingEntry>& settingEntries();
 
-/// The one of this name. Throws UsageError for an unknown one: says what it is called now, or names the nearest.
+/// The setting of this name. Throws UsageError for an unknown name, with its new name or the nearest one.
 const SettingEntry& findSetting(std::string_view name);
 
 bool sameSettings(const Settings& a, const Settings& b);
 
-/// Sets one from text. Throws UsageError for an unknown name (suggesting the nearest) and for a value of the wrong type
-/// or out of range (stating the range).
+/// Sets a value from text. Throws UsageError for an unknown name (suggesting the nearest) and for a value of the wrong
+/// type or out of range (stating the range).
 void setSetting(Settings& settings, std::string_view name, const std::string& value);
 
 /// `key=value`, as given to --set.
@@ -65,8 +65,8 @@ void setSetting(Settings& settings, std::string_view assignment);
 /// The value as text that setSetting takes.
 std::string settingText(const Settings& settings, const SettingEntry& entry);
 
-/// { "description": "what it is for", "trace_screen": { "max_steps": 64, … }, … }: sets what the object names, leaves
-/// the rest. Messages start with `where`. Throws Error as setSetting does.
+/// { "description": "what it is for", "trace_screen": { "max_steps": 64, … }, … }: changes only the settings in the
+/// object. Messages start with `where`. Throws Error as setSetting does.
 void applySettingsJson(Settings& settings, const nlohmann::json& json, const std::string& where);
 
 /// The differences from `from`, as JSON for applySettingsJson; an empty object if there are none.

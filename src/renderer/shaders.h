@@ -1,4 +1,4 @@
-// The shaders of all passes, as the build embeds them; a device that records passes is given them.
+// The shaders of all passes, embedded by the build; to be added to each device that records passes.
 #pragma once
 
 #include "gpu/shader.h"

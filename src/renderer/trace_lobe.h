@@ -16,12 +16,12 @@ struct TracedView {
     std::vector<PlanarView> mirrors;
 };
 
-/// Direct light as the screen's light. lit: this frame's and the last one's image of all light; may be none.
+/// A view whose screen has direct light as its light. lit: this and the last frame's image of all light; may be none.
 TracedView tracedView(gpu::PassList& f, const ViewInputs& in, const Settings& settings, ViewImages images,
                       const gpu::History& lit = {});
 
 /// Traces a lobe against the sources that the settings enable: screen, planar reflections, BVH, probes,
-/// environment. history: of the denoiser; null: this frame alone.
+/// environment. history: of the denoiser; null: only this frame.
 LobeLight traceLobe(gpu::PassList& f, LobeStore* history, const ViewInputs& in, const Settings& settings,
                     const TracedView& seen, uint32_t lobe);
 

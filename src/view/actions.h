@@ -1,4 +1,4 @@
-// What keys and buttons do.
+// Actions of keys and buttons.
 #pragma once
 
 #include "view/workspace.h"

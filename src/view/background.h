@@ -15,9 +15,9 @@
 
 namespace reflet {
 
-/// Lets the window go first: the calling thread, and those that it starts from now on, such as the ones of a CPU's
-/// Vulkan driver, get what it leaves of the machine. Elsewhere than on Linux a niceness belongs to the whole process,
-/// and nothing happens.
+/// Lowers the priority of the calling thread, and of threads that it starts from now on (such as those of a CPU's
+/// Vulkan driver), so that the window stays responsive. Linux only: elsewhere niceness applies to the whole process, so
+/// this does nothing.
 inline void stepBack() {
 #ifdef __linux__
     constexpr int niceness = 10;
@@ -48,7 +48,7 @@ public:
         });
     }
 
-    /// The result, once it is there; empty afterwards. Rethrows what the work threw.
+    /// The result, once available; empty afterwards. Rethrows exceptions of the work.
     std::optional<T> take() {
         if (!busy() || future_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
             return std::nullopt;
@@ -56,22 +56,22 @@ public:
         return future_.get();
     }
 
-    /// Waits for the result and drops it, or what the work threw.
+    /// Cancels the work, waits for it, and drops its result or exception.
     void discard() {
         stop();
         if (busy()) {
             try {
                 future_.get();
-            } catch (const std::exception&) {  // nobody wants it any more
+            } catch (const std::exception&) {  // no longer of interest
             }
         }
     }
 
-    /// Asks the work to end; that may take a while.
+    /// Requests that the work end; that may take a while.
     void cancel() { cancelled_ = true; }
     [[nodiscard]] bool cancelled() const { return cancelled_; }
 
-    /// Whether it has ended by then; waits for that.
+    /// Waits for the work to end, until `end` at most. Returns whether it has ended.
     [[nodiscard]] bool endsBy(Clock::time_point end) const {
         return !busy() || future_.wait_until(end) == std::future_status::ready;
     }

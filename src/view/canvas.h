@@ -8,13 +8,13 @@
 SHARED_BEGIN
 
 struct ComposeParams {
-    uvec2 size;     // of the window, pixels
-    vec2 corner;    // of the rectangle
-    vec2 extent;    // of the rectangle; 0: no image
-    vec2 sizeA;     // of the left image, pixels
-    vec2 sizeB;     // of the right image
+    uvec2 size;     // size of the window, pixels
+    vec2 corner;    // upper left corner of the rectangle
+    vec2 extent;    // size of the rectangle; 0: no image
+    vec2 sizeA;     // size of the left image, pixels
+    vec2 sizeB;     // size of the right image, pixels
     float divider;  // x in pixels of the window: the right image starts here
-    uint linear;    // 1: interpolates the images; 0: the nearest texel
+    uint linear;    // 1: linear filtering of the images; 0: nearest texel
     uint swapped;   // 1: writes blue, green, red
 };
 
@@ -43,20 +43,20 @@ struct Layout {
     vec2 corner{0.0F};
     vec2 extent{0.0F};
     float divider = 1e9F;
-    bool linear = false;  ///< interpolates images that are not of the rectangle's size
+    bool linear = false;  ///< linear filtering of images whose size differs from the rectangle's
 
     bool operator==(const Layout&) const = default;
 };
 
 class Canvas {
 public:
-    /// font: RGBA8. swapped: draws with red and blue exchanged, as windows mostly have them.
+    /// font: RGBA8. swapped: draws with red and blue swapped (BGRA), the usual format of windows.
     Canvas(gpu::Device& device, uvec2 fontSize, std::span<const uint8_t> font, bool swapped);
 
     using Picture = std::shared_ptr<const Bitmap>;
 
-    /// Draws, and waits until it is done. Images (RGB or RGBA) may be null; without a right one, the left one fills the
-    /// rectangle. The result is valid until the next call.
+    /// Draws the window's image, and waits until it is done. Images (RGB or RGBA) may be null; without a right one, the
+    /// left one fills the rectangle. The result is valid until the next call.
     gpu::Image draw(const Picture& left, const Picture& right, const Layout& layout, const ImDrawData& ui);
 
     /// Reads the last drawn window back, as RGB.

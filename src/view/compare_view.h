@@ -23,20 +23,20 @@ class CompareView {
 public:
     /// Drops everything, for another scene.
     void forget();
-    /// Asks the work in the background to end.
+    /// Requests that background work end.
     void cancel();
-    /// Whether it has ended by then; waits for that.
+    /// Waits for background work to end, until `end` at most. Returns whether it has ended.
     [[nodiscard]] bool endsBy(Clock::time_point end) const {
         return truth_.endsBy(end) && errorWork_.endsBy(end) && fileWork_.endsBy(end);
     }
 
-    /// What update() is told.
+    /// Inputs of update().
     struct Inputs {
         const ViewerState& state;
         const OpenScene& opened;
         const RenderedImage& live;   ///< the left side
         const RenderedImage* right;  ///< the right side, if it is rendered; null before its first frame
-        uvec2 size{0};               ///< of the image at rest
+        uvec2 size{0};               ///< size of the image at rest, pixels
         bool mayTrace = true;        ///< false while paused and while the view moves
     };
     /// Brings the right side up to date with the state, the last frames of both sides and the background work.
@@ -49,16 +49,16 @@ public:
         return state.compare.with != CompareWith::nothing;
     }
 
-    /// Null: none.
+    /// The right side's picture; null: none.
     [[nodiscard]] const std::shared_ptr<const Bitmap>& picture() const { return picture_; }
     /// Values of the right side's image; null: none.
     [[nodiscard]] const std::shared_ptr<const FloatImage>& values() const { return values_; }
     /// HDR-FLIP of each pixel; null: not computed yet.
     [[nodiscard]] const std::shared_ptr<const FloatImage>& errorMap() const { return errorMap_; }
     [[nodiscard]] bool busy() const { return errorWork_.busy() || fileWork_.busy(); }
-    /// Error of the left side against the right one, which may have been replaced since: measuring takes a while.
+    /// Error of the left side against the right one, which may have been replaced since: computing it takes a while.
     [[nodiscard]] const std::optional<Difference>& error() const { return error_; }
-    /// Samples per pixel of the ground truth that the error is against; 0: it is against something else.
+    /// Samples per pixel of the ground truth that the error is relative to; 0: relative to another image.
     [[nodiscard]] uint32_t errorSamples() const { return errorSamples_; }
     /// The error's name over the picture: "HDR-FLIP".
     [[nodiscard]] std::string errorName() const {
@@ -66,7 +66,7 @@ public:
     }
     /// Progress, or the reason why nothing is shown.
     [[nodiscard]] const std::string& message() const { return message_; }
-    /// What the right side is.
+    /// Name of the right side, for display.
     [[nodiscard]] std::string name(const ViewerState& state) const {
         return state.compare.with == CompareWith::preset ? state.compare.preset
                : state.compare.errorImage && errorMap_   ? errorName()
@@ -75,7 +75,7 @@ public:
                                                          : "path tracing";
     }
     [[nodiscard]] bool failed() const { return failed_; }
-    /// Samples per pixel of the picture that follows one of so many, 0: none; all of them are traced anew.
+    /// Samples per pixel of the next ground truth after one with `samples` (0: none yet); all samples are traced anew.
     [[nodiscard]] static uint32_t nextSamples(uint32_t samples, uint32_t most) {
         return std::min(samples == 0 ? 1 : samples * 4, most);
     }
@@ -104,7 +104,7 @@ private:
     void chooseLayer(const ViewerState& state);
     void updateError(const RenderedImage& live);
     void forgetError();
-    /// tonemap: of the left side, whose exposure both have.
+    /// tonemap: of the left side; both sides use its exposure.
     void updatePicture(const ViewerState& state, const TonemapSettings& tonemap);
     void setProblem(const std::string& text);
 
@@ -117,7 +117,7 @@ private:
     BackgroundTask<ReferencePicture> truth_;
     std::atomic<float> progress_ = 0.0F;
     uint32_t samples_ = 0;
-    FloatImage coverage_;                       ///< of the ground truth
+    FloatImage coverage_;                       ///< coverage of the ground truth
     std::string layerShow_;                     ///< the show that values_ belong to
     std::shared_ptr<const FloatImage> values_;  ///< of the right side
     std::shared_ptr<const FloatImage> pictureOf_;
@@ -128,9 +128,9 @@ private:
     BackgroundTask<Comparison> errorWork_;
     std::shared_ptr<const FloatImage> errorLeft_;  ///< inputs of the last or current error computation; null: unwanted
     std::shared_ptr<const FloatImage> errorRight_;
-    uint32_t errorRightSamples_ = 0;  ///< of errorRight_
+    uint32_t errorRightSamples_ = 0;  ///< samples per pixel of errorRight_
     std::optional<Difference> error_;
-    uint32_t errorSamples_ = 0;  ///< of error_
+    uint32_t errorSamples_ = 0;  ///< samples per pixel that error_ is relative to
     std::shared_ptr<const FloatImage> errorMap_;
     bool pictureIsError_ = false;
     std::string message_;

@@ -28,7 +28,7 @@ private:
     std::map<std::string, Rectangle> places_;
 };
 
-/// The values with four digits.
+/// Formats the values with four digits.
 std::string valuesText(const std::vector<float>& values);
 
 /// Shows the text while the pointer hovers over the last item.
@@ -41,8 +41,8 @@ bool chooseName(const char* label, const std::vector<std::string>& names, std::s
 /// `standard` are marked and can be reset to it.
 void settingControls(Settings& settings, const Settings& standard, const std::string& filter, ControlPlaces& places);
 
-/// A direction that is dragged on a hemisphere seen from above: the centre is straight up. Returns whether it changed.
-/// light: direction in which the light travels, unit length.
+/// A control to drag a direction on a hemisphere seen from above: the centre is straight up. Returns whether it
+/// changed. light: direction of travel of the light, unit length.
 bool dragDirection(const char* name, vec3& light);
 
 }  // namespace reflet

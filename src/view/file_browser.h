@@ -12,7 +12,7 @@ namespace reflet {
 
 class FileBrowser {
 public:
-    /// Opens the list in the folder where it was last, at first in `folder`.
+    /// Opens the list in the folder that was shown last; the first time, in `folder`.
     void open(const std::filesystem::path& folder);
     /// Draws the list while it is open. Returns a file once one is chosen.
     std::optional<std::string> draw(ControlPlaces& places);

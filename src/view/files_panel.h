@@ -16,7 +16,7 @@ public:
         : work_(work), actions_(actions), opener_(opener) {}
 
     void draw();
-    /// The list of files, while it is open; even if the panels are not.
+    /// Draws the list of files while it is open, even if the panels are hidden.
     void drawBrowser();
 
 private:

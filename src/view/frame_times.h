@@ -21,9 +21,9 @@ class FrameTimes {
 public:
     void note(const RenderedImage& frame);
 
-    /// Of whole frames, milliseconds, the last one at the end.
+    /// Times of whole frames, milliseconds, oldest first.
     [[nodiscard]] const std::deque<float>& frames() const { return frames_; }
-    /// Of the last frame's passes.
+    /// Times of the last frame's passes.
     [[nodiscard]] const std::vector<PassHistory>& passes() const { return passes_; }
 
 private:

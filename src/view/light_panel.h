@@ -19,7 +19,7 @@ private:
     void background();
 
     Workspace& work_;
-    bool sunMoved_ = false;  ///< since the sky was made
+    bool sunMoved_ = false;  ///< the sun has moved since the sky was generated
 };
 
 }  // namespace reflet

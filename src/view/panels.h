@@ -16,7 +16,7 @@ namespace reflet {
 
 class Panels {
 public:
-    /// What the panels show and change besides the state.
+    /// Objects that the panels show and change besides the state.
     struct Parts {
         const Window& window;
         const RenderThread& render;
@@ -30,7 +30,7 @@ public:
     Panels(Workspace& work, const Parts& parts);
 
     void draw();
-    /// The list of files, while it is open; even if the panels are not.
+    /// Draws the list of files while it is open, even if the panels are hidden.
     void drawBrowser() { files_.drawBrowser(); }
 
 private:
@@ -60,7 +60,7 @@ private:
     CameraPanel camera_;
     ComparePanel compare_;
     FilesPanel files_;
-    std::string filter_;  ///< of settings
+    std::string filter_;  ///< search text of the settings panel
 };
 
 }  // namespace reflet

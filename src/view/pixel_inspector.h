@@ -12,15 +12,15 @@ class PixelInspector {
 public:
     PixelInspector(Workspace& work, RenderThread& render) : work_(work), render_(render) {}
 
-    /// Reads the pixel in the background. focuses: and focuses the lens there.
+    /// Reads the pixel in the background. focuses: also focuses the lens there.
     void pick(uvec2 pixel, bool focuses);
     void forget() { picked_.reset(); }
-    /// Picks the same pixel again if settings or light have changed since, but not the view. Returns whether it does.
+    /// Picks the same pixel again if settings or light have changed since, but not the view. Returns whether it did.
     bool update();
 
     [[nodiscard]] const std::optional<Picked>& picked() const { return picked_; }
 
-    /// Opens the panel when it is drawn next.
+    /// Opens the panel the next time it is drawn.
     void openPanel() { opensPanel_ = true; }
     [[nodiscard]] bool takeOpensPanel() { return std::exchange(opensPanel_, false); }
     void drawPanel();
@@ -50,7 +50,7 @@ private:
     Workspace& work_;
     RenderThread& render_;
     std::optional<Picked> picked_;
-    Explains explains_ = Explains::mirror;  ///< what is drawn of the picked pixel
+    Explains explains_ = Explains::mirror;  ///< which rays of the picked pixel are drawn
     bool opensPanel_ = false;
 };
 

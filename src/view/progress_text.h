@@ -1,4 +1,4 @@
-// How far the picture is, in a few words.
+// Progress of the picture as a short text.
 #pragma once
 
 #include "view/render_thread.h"
@@ -7,7 +7,7 @@
 
 namespace reflet {
 
-/// "compiling 40 shaders", "frame 3 of 32", "finished", … job: that the thread is busy with; empty: none.
+/// "compiling 40 shaders", "frame 3 of 32", "finished", … job: current job of the render thread; empty: none.
 std::string progressText(const RenderThread::State& published, Running running, const std::string& job);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// The command line that renders what the window shows.
+// The command line that renders the window's picture.
 #pragma once
 
 #include "view/workspace.h"
@@ -10,7 +10,7 @@ namespace reflet {
 /// "cave" for "builtin:cave" and for "scenes/cave.glb".
 std::string sceneStem(const std::string& scene);
 
-/// `reflet render ...` for the state. A changed view is written to a file that stays. Throws Error.
+/// `reflet render ...` for the state. A changed view is written to a file, which is kept. Throws Error.
 std::string renderCommand(const Workspace& work);
 
 }  // namespace reflet

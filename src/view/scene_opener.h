@@ -12,11 +12,11 @@ namespace reflet {
 
 class SceneOpener {
 public:
-    /// onScene: called once another scene is open, to forget what belongs to the one before.
+    /// onScene: called once another scene is open, to discard data of the previous one.
     SceneOpener(Workspace& work, RenderThread& render, StateSaver& saver, std::function<void()> onScene)
         : work_(work), render_(render), saver_(saver), onScene_(std::move(onScene)) {}
 
-    /// Opens a scene in the background; the open one stays until then. restores: its saved state.
+    /// Opens a scene in the background; the current one stays open until then. restores: restores its saved state.
     void open(const SceneOptions& source, bool restores);
     /// A scene, an EXR to compare with, an environment, settings or a view. Throws Error.
     void openFile(const std::string& file);

@@ -1,5 +1,5 @@
-// One open scene: renders it according to the state, and tracks when the image has converged. Belongs to the thread
-// that renders; the window has copies of what it shows.
+// One open scene: renders it according to the state, and tracks when the image has converged. Used only by the render
+// thread; the window has copies of its output.
 #pragma once
 
 #include "capture/show.h"
@@ -18,19 +18,19 @@ namespace reflet {
 /// The display image of a show's values: tone mapped, as by --show, or in false colours.
 Bitmap shownPicture(const ViewerState& state, const TonemapSettings& tonemap, const FloatImage& values);
 
-/// Copies of what a session's last frame left, for the window's thread.
+/// Copies of the results of a session's last frame, for the window's thread.
 struct RenderedImage {
-    std::shared_ptr<const Bitmap> picture;     ///< null before the first frame, or if `problem` says why
-    std::shared_ptr<const FloatImage> values;  ///< of the show; null if they were not kept
+    std::shared_ptr<const Bitmap> picture;     ///< null before the first frame, or if there is a `problem`
+    std::shared_ptr<const FloatImage> values;  ///< values of the show; null if they were not kept
     std::string problem;                       ///< why the show is not available
-    TonemapSettings tonemap;  ///< that shows other pictures with this frame's exposure, the automatic one included
-    std::optional<float> exposure;  ///< automatic [stops]
-    ViewParams view{};              ///< of the frame
-    uvec2 size{0};                  ///< that was rendered
-    uint32_t frames = 0;            ///< since the last change
-    uint32_t framesToConverge = 0;  ///< after which the image has converged
-    uint64_t changes = 0;           ///< of view, settings or size so far
-    uint64_t rendered = 0;          ///< frames in total
+    TonemapSettings tonemap;        ///< displays other pictures with this frame's exposure, including the automatic one
+    std::optional<float> exposure;  ///< automatic exposure [stops]
+    ViewParams view{};              ///< view of the frame
+    uvec2 size{0};                  ///< rendered size
+    uint32_t frames = 0;            ///< number of frames since the last change
+    uint32_t framesToConverge = 0;  ///< number of frames until the image has converged
+    uint64_t changes = 0;           ///< number of changes of view, settings or size so far
+    uint64_t rendered = 0;          ///< number of frames in total
     std::vector<gpu::PassTime> passes;
     double milliseconds = 0.0;  ///< from the frame's submission to its completion
 };
@@ -40,8 +40,8 @@ struct OpenScene {
     std::shared_ptr<const Scene> scene;
     View firstView;  ///< given by the scene and the command line
 
-    /// Whether `reflet render` at this size has the state's view without a view file: nothing was changed, and no
-    /// camera was framed for another size.
+    /// Whether `reflet render` at this size gives the state's view without a view file: the view is unchanged, and the
+    /// camera was not framed for another size.
     [[nodiscard]] bool isDefaultView(const ViewerState& state, uvec2 size) const;
 };
 
@@ -54,10 +54,11 @@ public:
 
     /// Whether another frame would change the image at this size.
     [[nodiscard]] bool wantsFrame(const ViewerState& state, uvec2 size) const;
-    /// Renders one frame and its display image. keepValues: shown().values will be needed. stop: asked during the frame
-    /// if the device is slow; if it returns true, the frame and all history are dropped, and the call returns false.
+    /// Renders one frame and its display image. keepValues: shown().values will be needed. stop: polled during the
+    /// frame if the device is slow; if it returns true, the frame and all history are dropped, and the call returns
+    /// false.
     bool render(const ViewerState& state, uvec2 size, bool keepValues, const std::function<bool()>& stop);
-    /// Resets the history: something outside the state changed, such as a shader.
+    /// Resets the history, after a change outside the state, such as of a shader.
     void resetHistory();
     /// Redraws the display image of the same frame, with other false colours.
     void refreshPicture(const ViewerState& state);
@@ -90,7 +91,7 @@ private:
     std::optional<Request> last_;
 };
 
-/// The settings of a frame: those of the state, plus what its show needs.
+/// The settings of a frame: the state's, plus those that its show needs.
 Settings renderedSettings(const ViewerState& state);
 
 }  // namespace reflet

@@ -7,8 +7,8 @@
 
 namespace reflet {
 
-/// Whether a setting is found by what somebody typed: each word is part of its name, begins a word of its help, or is
-/// a common term for its group ("ssr", "reflection", "gi", "blur", "taa"). Upper and lower case are the same.
+/// Whether a setting matches the search text: each word is part of its name, begins a word of its help, or is a common
+/// term for its group ("ssr", "reflection", "gi", "blur", "taa"). Case-insensitive.
 bool isFound(const SettingEntry& entry, std::string_view typed);
 
 }  // namespace reflet

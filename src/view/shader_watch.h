@@ -15,19 +15,18 @@ namespace reflet {
 class ShaderWatch {
 public:
     /// sources: the folder `src` of the source tree. Watches nothing if it does not exist.
-    /// library: of which shaders are replaced; must outlive the watch.
+    /// library: its shaders are replaced; must outlive the watch.
     ShaderWatch(gpu::ShaderLibrary& library, const std::filesystem::path& sources);
 
     [[nodiscard]] bool watches() const { return !files_.empty(); }
 
-    /// Recompiles what has changed since the last call and replaces the running shaders, except those that do not
-    /// compile. Returns whether any was replaced; the caller must drop its pipelines then. stop: asked before each
-    /// shader.
+    /// Recompiles shaders changed since the last call and replaces the running ones, except those that do not compile.
+    /// Returns whether any was replaced; then the caller must drop its pipelines. stop: polled before each shader.
     bool update(const std::function<bool()>& stop);
 
     /// Error of the last failed compilation, with file and line; empty: none.
     [[nodiscard]] const std::string& problem() const { return problem_; }
-    /// Shaders replaced by the last update with a change.
+    /// Shaders replaced by the last update that replaced any.
     [[nodiscard]] const std::vector<std::string>& replaced() const { return replaced_; }
 
 private:

@@ -12,9 +12,9 @@ class StateSaver {
 public:
     StateSaver(Workspace& work, const Window& window) : work_(work), window_(window) {}
 
-    /// Writes the state of the open scene, if it has changed. A failure is a notice, and a warning the first time.
+    /// Writes the state of the open scene, if it has changed. A failure shows a notice, and a warning the first time.
     void save();
-    /// The same every few seconds, so that little is lost if the display goes away.
+    /// Calls save() every few seconds, so that little is lost if the display goes away.
     void saveIfDue();
 
 private:

@@ -1,4 +1,4 @@
-// Switches for the parts of the light, by the names that people know them by: short cuts for settings.
+// Switches for the parts of the light, by their common names: shortcuts for settings.
 #pragma once
 
 #include "renderer/settings.h"
@@ -10,16 +10,16 @@ namespace reflet {
 
 struct Switch {
     const char* name;
-    int key;           ///< of the keyboard, as a character
-    const char* help;  ///< what it sets
+    int key;           ///< keyboard key, as a character
+    const char* help;  ///< which settings it changes
     bool (*isOn)(const Settings&);
-    /// preset: what the setting is while it is on, unless it is off there, too.
+    /// preset: source of the setting's value when switched on, unless it is also off in the preset.
     void (*set)(Settings& settings, bool on, const Settings& preset);
 };
 
 std::span<const Switch> switches();
 
-/// "SSGI, AO": names of those that are off here and on in the preset; empty: none.
+/// "SSGI, AO": names of switches that are off in `settings` and on in the preset; empty: none.
 std::string switchedOff(const Settings& settings, const Settings& preset);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// The viewer: a window, a scene, and the loop that brings both up to date.
+// The viewer: a window, a scene, and the main loop that updates both.
 #pragma once
 
 #include "device/device.h"
@@ -68,10 +68,10 @@ private:
     void checkMessages() const;
 
     ViewerOptions options_;
-    std::atomic<size_t> messages_ = 0;  ///< of the validation layers, for both devices
+    std::atomic<size_t> messages_ = 0;  ///< number of validation messages, of both devices
     Window window_;
     RenderThread render_;
-    gpu::Device device_;  ///< of the window alone
+    gpu::Device device_;  ///< only for the window
     gpu::Presenter presenter_;
     std::unique_ptr<Canvas> canvas_;
     Workspace work_;
@@ -85,20 +85,20 @@ private:
     Panels panels_;
     Overlay overlay_;
 
-    uint64_t published_ = 0;  ///< what RenderThread::published was when its state was taken
+    uint64_t published_ = 0;  ///< RenderThread::published at the time its state was taken
     std::optional<uvec2> toPick_;
     struct Seen {
         View view;
         Settings settings;
         uvec2 size{0};
     };
-    std::optional<Seen> seen_;  ///< at the last change
+    std::optional<Seen> seen_;  ///< values at the last change
     Clock::time_point lastChange_;
     bool moving_ = false;
     Clock::time_point lastDraw_;
     Clock::time_point lastLoop_;
     double elapsed_ = 0.0;  ///< seconds since the loop's last iteration
-    bool wasBusy_ = false;  ///< with a job, whose name was drawn
+    bool wasBusy_ = false;  ///< a job was running, and its name was drawn
     uint64_t drawn_ = 0;    ///< window redraws in total
 };
 

@@ -20,7 +20,7 @@ enum class Running : uint8_t {
 /// The content of the right side of the divider.
 enum class CompareWith : uint8_t {
     nothing,
-    preset,  ///< live
+    preset,  ///< rendered live with another preset
     file,    ///< an EXR
     truth,   ///< path traced in the background
 };
@@ -29,7 +29,7 @@ struct Compare {
     CompareWith with = CompareWith::nothing;
     std::string preset = "plain";
     std::string file;
-    uint32_t samples = 256;   ///< of the ground truth, per pixel
+    uint32_t samples = 256;   ///< samples per pixel of the ground truth
     float divider = 0.5F;     ///< position as a fraction of the image's width
     bool errorImage = false;  ///< FLIP map instead of the right image
 };
@@ -47,7 +47,7 @@ struct ViewerState {
     float low = 0.0F;
     float high = 1.0F;
     float scale = 1.0F;       ///< rendered pixels per window pixel, along each side
-    float mostFrames = 0.0F;  ///< per second; 0: no limit
+    float mostFrames = 0.0F;  ///< limit of frames per second; 0: no limit
     Compare compare;
     bool panels = true;
     float panelWidth = 380.0F;  ///< in desktop units, at text scale 1

@@ -36,7 +36,7 @@ public:
     /// Creates this window's Vulkan surface. Throws Error.
     [[nodiscard]] VkSurfaceKHR_T* surface(VkInstance_T* instance) const;
 
-    /// Returns after an event or so many seconds; 0: immediately.
+    /// Waits for an event, for at most this many seconds; 0: returns immediately.
     static void waitForEvents(double seconds);
     /// Ends waitForEvents(). May be called from any thread.
     static void wake();
@@ -81,7 +81,7 @@ private:
     float scale_ = 1.0F;
     bool happened_ = true;
     std::vector<KeyPress> keys_;
-    std::set<int> shortcuts_;  ///< keys that went down with Control, which may be released before them
+    std::set<int> shortcuts_;  ///< keys pressed with Control, which may be released before them
     std::vector<std::string> dropped_;
 };
 

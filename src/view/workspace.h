@@ -1,4 +1,4 @@
-// What the parts of the window share: the state that they change, the open scene, and the last rendered image.
+// Data shared by the parts of the window: the state that they change, the open scene, and the last rendered image.
 #pragma once
 
 #include "view/controls.h"
@@ -18,15 +18,15 @@ struct PictureRect {
 
 class Workspace {
 public:
-    /// largestSide: of an image, pixels.
+    /// largestSide: maximum side of an image, pixels.
     Workspace(ViewerState first, const Window& window, uint32_t largestSide);
 
     ViewerState state;
     OpenScene opened;               ///< no scene while the first one is opened
-    uint64_t sceneNumber = 0;       ///< of `opened`, as the render thread counts
-    RenderThread::State published;  ///< what the render thread published last; `live` is never null
+    uint64_t sceneNumber = 0;       ///< the render thread's number of `opened`
+    RenderThread::State published;  ///< last state published by the render thread; `live` is never null
     ControlPlaces places;
-    uint32_t steps = 0;  ///< single frames that were asked for
+    uint32_t steps = 0;  ///< total number of single frames requested
 
     [[nodiscard]] const Scene& scene() const { return *opened.scene; }
     [[nodiscard]] const RenderedImage& live() const { return *published.live; }
@@ -34,25 +34,25 @@ public:
     [[nodiscard]] bool isPlaying() const { return state.plays && state.running != Running::paused; }
 
     [[nodiscard]] PictureRect pictureRect() const;
-    /// Of the image at rest, pixels.
+    /// Size of the image at rest, pixels.
     [[nodiscard]] uvec2 renderSize() const;
 
     /// The camera for moving it by hand: detached from its node, if any, at the node's current pose.
     Camera& detachedCamera();
-    /// Puts the plane of focus there, metres along the view axis.
+    /// Sets the distance of the plane of focus, metres along the view axis.
     void focusAt(float distance);
 
-    /// Shows what was done.
+    /// Shows a notice about a completed action.
     void tell(const std::string& text) { notice_ = text; }
-    /// Shows what is wrong if the work throws.
+    /// Runs the work, and shows the problem if it throws.
     void attempt(const std::function<void()>& work);
     [[nodiscard]] const std::string& notice() const { return notice_; }
     [[nodiscard]] const std::string& problem() const { return problem_; }
 
-    /// How often the window is drawn again even if nothing happens.
+    /// Number of pending redraws, done even without events.
     [[nodiscard]] int redraws() const { return redraws_; }
     void redraw(int times);
-    /// Until the user interface has settled.
+    /// Requests enough redraws for the user interface to settle.
     void redrawUntilSettled();
     void noteRedraw();
     void forgetRedraws() { redraws_ = 0; }

@@ -4,14 +4,14 @@
 // Each pixel is reprojected (by the motion of the nearest surface in its neighbourhood, so that edges move with the
 // foreground), reads the history there (Catmull-Rom, to stay sharp), clips it to the local distribution of this frame's
 // pixels (history clip), and blends in this frame with a weight of one over the history length.
-// What the last frame did not show where a surface was (it was hidden by what has left) starts anew: each pixel keeps
-// the distance and the own motion of what it showed, and what starts to move marks where it was. Where the light of a
-// static surface, its radiance without the texture, gets brighter or darker over frames, the history is scaled alike,
-// so that its detail is kept; where it also is uneven, or was, a shadow's edge has moved, and the pixel starts anew.
+// Disoccluded surfaces start with an empty history: each pixel keeps the distance and the object motion of the surface
+// it showed, and surfaces that start to move mark where they were. Where the light of a static surface (its radiance
+// without the texture) gets brighter or darker over frames, the history is scaled alike, so that its detail is kept.
+// Where that light is also uneven, or was, a shadow edge has moved, and the pixel's history is reset.
 // The sky of a moving camera is filtered over each pixel, without history. Frames may be smaller than the output
 // (temporal upscaling): the jitter then brings samples to all of the output's pixels in turn. At rest, a pixel's mean
-// takes only samples that lie in its own area, so that it converges to what a frame of the output's size converges to;
-// until it has one, and in motion, it takes those around it, weighted by a Gaussian of their distance, which also is
+// takes only samples that lie in its own area, so that it converges to the result at full resolution. Until it has such
+// a sample, and in motion, it takes the samples around it, weighted by a Gaussian of their distance, which is also
 // their weight in the mean. (Karis, High Quality Temporal Supersampling, SIGGRAPH 2014: jitter, clipping in YCoCg,
 // tone-compressed; Salvi, An Excursion in Temporal Supersampling, GDC 2016: limits from local mean and variance;
 // Jimenez, Filmic SMAA: Sharp Morphological and Temporal Antialiasing, SIGGRAPH 2016: Catmull-Rom without its corners;
@@ -45,40 +45,40 @@ SHARED_BEGIN
           "has full size. 0.5: a quarter of the cost of a frame, and twice as many frames until all is sharp.")
 SETTINGS(TemporalSettings, TEMPORAL_SETTINGS)
 
-// Frames after a change in which its light may still spread: by then each pixel of the output has had samples, twice.
+// Number of frames for which the light of a change may still spread: by then each output pixel has been sampled twice.
 const uint framesThatFollow = 8;
 
 // Vertically adjacent pixels per thread, which share their neighbourhood loads.
 const uint temporalColumn = 4;
 
 struct TemporalParams {
-    mat4 toPrevious;  // clip space to the last frame's clip space, of what is at rest
+    mat4 toPrevious;  // clip space to the last frame's clip space, for static surfaces
     TemporalSettings settings;
     uvec2 size;
-    vec2 jitter;           // of this frame, in its pixels
-    vec2 jitterChange;     // uv: of ViewParams
+    vec2 jitter;           // this frame's subpixel jitter, in its pixels
+    vec2 jitterChange;     // ViewParams::jitterChange, uv
     uint frame;            // counts up; decorrelates dithering between frames
     uint hasPrevious;      // 1: the history holds the last frame
     uint mayChange;        // 1: something has changed in the last framesThatFollow frames
-    uint skyIsFixed;       // 1: where depth is 0 the picture changes by the camera alone
+    uint skyIsFixed;       // 1: where depth is 0, only camera motion changes the image
     uint resized;          // 1: the last frame had another size, and so neighbourhoods of another size
-    float exposureChange;  // of ViewParams
+    float exposureChange;  // ViewParams::exposureChange
 };
 
 struct TemporalUpscaleParams {
     TemporalSettings settings;
-    uvec2 size;   // of this frame
-    vec2 ratio;   // of this frame's size to the output's
-    vec2 jitter;  // of this frame, in its pixels
+    uvec2 size;   // this frame's size, pixels
+    vec2 ratio;   // this frame's size over the output's
+    vec2 jitter;  // this frame's subpixel jitter, in its pixels
     uint frame;   // as in TemporalParams
     float exposureChange;
 };
 
 struct TemporalSkyParams {
-    ViewParams view;  // of this frame
+    ViewParams view;  // this frame's view
     vec2 ratio;       // as in TemporalUpscaleParams
     vec2 jitter;
-    float frames;  // history length of what is written
+    float frames;  // history length to write
 };
 
 SHARED_END
@@ -91,14 +91,14 @@ SHARED_END
 
 namespace reflet {
 
-/// depth, motion: of what the radiance moves with; motion without jitter. radiance: RGBA16F, rendered with subpixel
-/// jitter (jitter.h), may contain NaN and infinity. view: of this frame; the sky is reprojected with it. coverage: if
-/// given, that of the pixels by surfaces, red, 0 to 1; radiance is premultiplied by it. outputSize: at least that of
-/// radiance; 0: the same. jitter: of this frame, in its pixels. reactive: red, the share of the history that a pixel
-/// gives up, 0 to 1; none: 0. baseColor: as in GBuffer, so that textures do not hide changes
-/// of light; none: they may. mixesSizes: the mean has samples of frames of another size; then those of the output's
-/// size are added as in upscaling, too, as limits for frames that all have it take what others saw for stale. sky: what
-/// is seen where depth is 0, if that is an environment and nothing else; it must live until the call returns.
+/// depth, motion: those of the surface that the radiance moves with; motion without jitter. radiance: RGBA16F, rendered
+/// with subpixel jitter (jitter.h), may contain NaN and infinity. view: this frame's; the sky is reprojected with it.
+/// coverage: optional, red: share of each pixel that surfaces cover, 0 to 1; radiance is premultiplied by it.
+/// outputSize: at least radiance's size; 0: the same. jitter: this frame's, in its pixels. reactive: reactive mask,
+/// red: share of the history to discard, 0 to 1; none: 0. baseColor: as in GBuffer, so that textures do not hide
+/// changes of light; none: they may. mixesSizes: the history has samples of frames of another size. Then frames of the
+/// output's size are also added as in upscaling, because the history clip for one size would reject samples of another.
+/// sky: the environment, if it alone is seen where depth is 0; it must live until the call returns.
 struct TemporalInputs {
     gpu::Image depth;
     gpu::Image motion;
@@ -115,11 +115,11 @@ struct TemporalInputs {
 
 struct TemporalImages {
     gpu::Image mean;      ///< RGBA16F: radiance, finite and at least 0, and history length;
-                          ///< of the output's size
+                          ///< at the output's size
     gpu::Image coverage;  ///< R32F, averaged with the same weights as the radiance; none if none was given
 };
 
-/// Owns the histories.
+/// The histories of temporal().
 struct TemporalStore {
     gpu::HistoryImage mean{"temporal"};
     gpu::HistoryImage deviations{"temporal_deviations"};

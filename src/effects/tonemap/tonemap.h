@@ -49,8 +49,8 @@ SHARED_END
 
 namespace reflet {
 
-/// RGBA8, display encoded (sRGB unless the curve is gamma22), alpha 1. `exposure`: from measureExposure; none: that of
-/// the settings alone.
+/// RGBA8, display encoded (sRGB unless the curve is gamma22), alpha 1. `exposure`: from measureExposure; none: only the
+/// settings' exposure.
 gpu::Image tonemap(gpu::PassList& f, gpu::Image radiance, const TonemapSettings& settings, gpu::Image exposure = {});
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// Measures another build of the program against this one: runs both as separate processes, alternately.
+// Benchmarks another build of the program against this one: runs both as separate processes, alternately.
 #pragma once
 
 #include "measure/bench/work.h"
@@ -11,7 +11,7 @@ namespace reflet {
 
 struct AgainstPlan {
     std::string other;                ///< the other program
-    uint32_t rounds = 5;              ///< of each program
+    uint32_t rounds = 5;              ///< runs of each program
     std::vector<std::string> scenes;  ///< as typed
     std::vector<uvec2> sizes;
     std::vector<std::vector<std::string>> variants;  ///< the options that select each: {"--preset", "fast"}
@@ -22,7 +22,8 @@ struct AgainstPlan {
 };
 
 /// Adds two runs and a pair for each scene, size and variant; a sample is the median of one run of a program. If the
-/// other program has no `bench`, both run `render --timings`: only device times of frames with history. Throws Error.
+/// other program has no `bench`, both run `render --timings`, which gives only device times of frames with history.
+/// Throws Error.
 void measureAgainst(const AgainstPlan& plan, BenchResult& result);
 
 }  // namespace reflet

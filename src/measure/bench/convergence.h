@@ -12,7 +12,7 @@
 namespace reflet {
 
 struct ConvergencePlan {
-    std::vector<uint32_t> frames;  ///< numbers of the frames to compare, ascending; 1: without history
+    std::vector<uint32_t> frames;  ///< numbers of the frames to compare, ascending; frame 1 has no history
     std::string layer = "final";
     float pixelsPerDegree = 67.0F;
 };
@@ -24,7 +24,7 @@ struct StillError {
     double displayedFlip = 0.0;  ///< by displayedFlip()
 };
 
-/// Renders the scene's view up to the last of these frames, and compares those of the plan with `truth`. Shows
+/// Renders the scene's view up to the last frame of the plan, and compares the plan's frames with `truth`. Shows
 /// progress. Throws Error.
 std::vector<StillError> measureConvergence(gpu::Device& device, const BenchScene& scene, uvec2 size,
                                            const Settings& settings, const Truth& truth, const ConvergencePlan& plan);

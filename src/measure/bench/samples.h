@@ -22,30 +22,30 @@ struct Series {
     SeriesKind kind = SeriesKind::pass;
     std::string name;
     std::vector<double> ms;
-    uint64_t bytes = 0;   ///< bound by its passes, in the last frame that had it
+    uint64_t bytes = 0;   ///< bytes bound by its passes, in the last frame that had it
     bool raster = false;  ///< a pass that draws triangles
 };
 
-/// What the host made of a frame.
+/// Host-side statistics of a frame.
 struct Recording {
     double ms = 0.0;      ///< host time to list and record its passes
-    uint32_t passes = 0;  ///< copies and clears included
+    uint32_t passes = 0;  ///< including copies and clears
     uint32_t barriers = 0;
-    uint64_t transientBytes = 0;  ///< of the memory that images and buffers of one frame share
+    uint64_t transientBytes = 0;  ///< bytes of the memory that transient images and buffers share
 };
 
 /// Groups: "geometry" has all passes that draw triangles, "effects" all others; "diffuse" has all passes whose names
 /// start with "diffuse.", and so on.
 class Samples {
 public:
-    /// `wallMs`: of the whole frame by the host's clock. Submission to fence, and the device times, come from `frame`.
+    /// wallMs: time of the whole frame by the host's clock. Submission to fence, and device times, come from `frame`.
     void add(double wallMs, const gpu::Frame& frame);
-    /// `passes` as from Frame::passTimes(). recording: none if it is not known, as of programs that do not tell it.
+    /// passes: as from Frame::passTimes(). recording: none if unknown, as for programs that do not report it.
     void add(double wallMs, double submittedMs, std::span<const gpu::PassTime> passes,
              const std::optional<Recording>& recording = {});
 
     [[nodiscard]] size_t frames() const { return frames_; }
-    /// Of the last frame.
+    /// Statistics of the last frame.
     [[nodiscard]] const std::optional<Recording>& recording() const { return recording_; }
     /// Totals, groups, then passes in the order in which they first ran.
     [[nodiscard]] std::vector<Series> series() const;
@@ -69,7 +69,7 @@ struct Ratio {
     std::vector<double> differences;  ///< first time - second time, milliseconds; for all turns
 };
 
-/// For every pass and group that both have.
+/// Ratios for every pass and group that both have.
 std::vector<Ratio> ratiosOf(const Samples& first, const Samples& second);
 
 }  // namespace reflet

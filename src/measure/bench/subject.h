@@ -29,7 +29,7 @@ public:
     /// Renders some frames, so that all pipelines and images exist. `scene` must outlive it.
     Subject(gpu::Device& device, const BenchScene& scene, uvec2 size, const Settings& settings);
 
-    /// The next frame starts without history, but with everything that is computed only once.
+    /// Discards history, but keeps everything that is computed only once.
     void forgetHistory() { renderer_.restart(0); }
     void render();
     void render(Samples& samples);

@@ -1,5 +1,5 @@
 // The ground truth for measured images: path traced, or the same settings with very many rays. Rendered once and cached
-// as EXR files in a folder; file names contain a hash of everything that the image depends on.
+// as EXR files in a folder; file names contain a hash of all inputs of the image.
 #pragma once
 
 #include "measure/bench/subject.h"
@@ -14,8 +14,8 @@ namespace reflet {
 
 enum class TruthKind : uint8_t {
     none,
-    reference,  ///< by the path tracer
-    chain,      ///< what the settings converge to: the mean of chainRays rays per pixel, without denoising
+    reference,  ///< path traced
+    chain,      ///< the converged result of the settings: mean of chainRays rays per pixel, without denoising
 };
 
 struct TruthOptions {
@@ -32,14 +32,14 @@ void parseTruth(const std::string& text, TruthOptions& options);
 /// $XDG_CACHE_HOME/reflet/truth, or ~/.cache/reflet/truth.
 std::filesystem::path standardTruthFolder();
 
-/// Everything that the ground truth of this scene at this size depends on, as one line of text. For `chain` that
-/// includes all settings and this program itself.
+/// All inputs of the ground truth of this scene at this size, as one line of text. For `chain` that includes all
+/// settings and this program itself.
 std::string truthKey(const BenchScene& scene, uvec2 size, const Settings& settings, const TruthOptions& options);
 
 struct Truth {
     Layers layers;         ///< final, direct, indirect_diffuse, indirect_specular; empty for TruthKind::none
     std::string file;      ///< its cache file
-    uint32_t samples = 0;  ///< per pixel, or rays
+    uint32_t samples = 0;  ///< samples per pixel; for a chain, rays per pixel
     double noise = 0.0;    ///< as in ReferencePicture; 0 for a chain
 };
 

@@ -20,20 +20,20 @@ namespace reflet {
 struct BenchPlan {
     std::vector<BenchScene> scenes;
     std::vector<uvec2> sizes;
-    std::vector<Variant> variants;                   ///< each by itself
+    std::vector<Variant> variants;                   ///< each measured alone
     std::vector<std::pair<Variant, Variant>> pairs;  ///< each measured with alternating frames
-    uint32_t firstFrames = 5;                        ///< frames without history
+    uint32_t firstFrames = 5;                        ///< measured frames without history
     uint32_t warmup = 11;                            ///< frames between those without history and the measured ones
-    uint32_t frames = 20;                            ///< measured, with history
+    uint32_t frames = 20;                            ///< measured frames with history
     TruthOptions truth;
     MotionPlan motion;            ///< its warmup equals that of the plan
-    std::string layer = "final";  ///< whose error is measured
+    std::string layer = "final";  ///< layer whose error is measured
     float pixelsPerDegree = 67.0F;
     std::vector<uint32_t> stillFrames;  ///< as in ConvergencePlan; empty: not measured
     bool plotsConvergence = false;      ///< whether the plot is that of the error over these frames
 };
 
-/// Measurements of one state: without history, or with that of earlier frames.
+/// Measurements of one state: without history, or with the history of earlier frames.
 struct BenchState {
     Samples samples;
     std::optional<Difference> error;
@@ -43,13 +43,13 @@ struct BenchState {
 struct BenchRun {
     std::string scene;
     std::string variant;
-    std::string settings;  ///< those that differ from the defaults, in the form of --set
+    std::string settings;  ///< settings that differ from the defaults, in the form of --set
     uvec2 size{0};
     uint64_t triangles = 0;
     uint64_t memory = 0;  ///< bytes of device memory: scene, frame and history
     BenchState first;
     BenchState steady;              ///< the error is that of frame warmup + frames + 1
-    std::vector<StillError> still;  ///< of the plan's stillFrames
+    std::vector<StillError> still;  ///< errors at the plan's stillFrames
     std::optional<MotionResult> motion;
     std::string truthFile;
     double truthNoise = 0.0;
@@ -58,7 +58,7 @@ struct BenchRun {
 
 /// Two runs whose frames alternated.
 struct BenchPair {
-    size_t a = 0;  ///< of BenchResult::runs
+    size_t a = 0;  ///< index into BenchResult::runs
     size_t b = 0;
 };
 

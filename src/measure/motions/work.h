@@ -20,20 +20,20 @@ struct MotionsPlan {
     std::vector<Variant> variants;
     uvec2 size{160, 90};
     uint32_t seed = 0;
-    uint32_t settle = 24;  ///< frames at rest before a picture is settled, and before the motion
+    uint32_t settle = 24;  ///< frames at rest before a settled picture, and before the motion
     TruthOptions truth;    ///< not TruthKind::none
     bool strips = false;   ///< whether to keep pictures
 };
 
-/// Frames whose mean is a settled picture.
+/// Number of frames that a settled picture averages.
 constexpr uint32_t settledFrames = 8;
-/// The oldest age of ghosts that is measured.
+/// The largest measured age of ghosts, in frames.
 constexpr uint32_t oldestGhost = 8;
 
-/// Frames after the event that a strip shows.
+/// Frames that a strip shows, counted from the event.
 constexpr std::array<uint32_t, 2> stripFrames{0, 7};
 
-/// Errors against the reference, one of each frame.
+/// Errors against the reference, one per frame.
 struct MotionErrors {
     std::vector<double> flip;  ///< as displayed
     std::vector<double> relativeMse;
@@ -42,17 +42,17 @@ struct MotionErrors {
 struct MotionsRun {
     MotionCase motion;
     std::string variant;
-    std::string settings;  ///< those that differ from the defaults, in the form of --set
+    std::string settings;  ///< settings that differ from the defaults, in the form of --set
     MotionErrors moving;
-    MotionErrors rest;  ///< of a frame at rest at the same pose
+    MotionErrors rest;  ///< errors of frames at rest at the same poses
     Ghosts ghosts;
     Flicker flicker;
     double restFlicker = 0.0;  ///< mean change from frame to frame at rest, compressed
-    /// For Lag::light: the share of the step that is left in each frame from the event on; for Lag::rest: the
-    /// displayed FLIP over that at rest. Of the final picture and, for Lag::light, of indirect diffuse light.
+    /// For each frame from the event on. Lag::light: the share of the step that is left; Lag::rest: displayed FLIP over
+    /// displayed FLIP at rest. `left`: for the final picture; `indirectLeft`: for indirect diffuse light (Lag::light).
     std::vector<double> left;
     std::vector<double> indirectLeft;
-    std::vector<Bitmap> pictures;  ///< of stripFrames, if the plan keeps them
+    std::vector<Bitmap> pictures;  ///< pictures of stripFrames, if the plan keeps them
 };
 
 struct MotionsResult {
@@ -63,9 +63,9 @@ struct MotionsResult {
 
 /// Mean FLIP in motion over mean FLIP at rest.
 double errorRatio(const MotionsRun& run);
-/// Change in motion over change of the settled pictures plus change at rest.
+/// Flicker in motion over (flicker of the settled pictures + flicker at rest).
 double flickerRatio(const MotionsRun& run);
-/// Frames after the event; nullopt: it has not arrived in the last frame. `left` is MotionsRun::left or indirectLeft.
+/// Lag in frames after the event; nullopt: not over by the last frame. left: MotionsRun::left or indirectLeft.
 std::optional<uint32_t> lagOf(const MotionsRun& run, const std::vector<double>& left);
 
 /// Shows progress. Throws Error.

@@ -1,5 +1,5 @@
-// Whether a device renders what it should: built-in scenes against stored pictures, times, memory, a stability run. For
-// the first run on a device that nobody has tried.
+// Qualifies a device: built-in scenes against stored pictures, times, memory, a stability run. For the first run on an
+// untested device.
 #pragma once
 
 #include "base/document.h"
@@ -15,10 +15,10 @@
 
 namespace reflet {
 
-/// A picture in little: mean radiance luminance of each cell, rows from the top.
+/// A downsampled picture: mean radiance luminance of each cell, rows from the top.
 using LuminanceGrid = std::vector<float>;
 inline constexpr uvec2 gridSize{16, 9};
-/// Pixels of the pictures behind the grids.
+/// Size in pixels of the pictures that grids are computed from.
 inline constexpr uvec2 qualifySize{160, 90};
 inline constexpr uint32_t qualifyFrames = 8;
 
@@ -29,7 +29,7 @@ struct GridDifference {
     double worst = 0.0;
 };
 
-/// What a device may differ by. Rounding changes which way single rays go, so that cells differ by noise.
+/// Tolerated difference. Rounding changes the paths of single rays, so that cells differ by noise.
 inline constexpr GridDifference gridTolerance{0.02, 0.25};
 
 struct QualifyPlan {
@@ -37,8 +37,8 @@ struct QualifyPlan {
     std::vector<std::string> presets;  ///< "fast"
     uvec2 timedSize{0};                ///< pixels of timed frames
     uint32_t timedFrames = 10;
-    double seconds = 60.0;    ///< of the stability run
-    bool references = false;  ///< path trace them, for grids that are to be stored
+    double seconds = 60.0;    ///< duration of the stability run
+    bool references = false;  ///< path trace reference grids, to be stored
 };
 
 struct QualifiedPicture {
@@ -48,7 +48,7 @@ struct QualifiedPicture {
     bool finite = true;
     std::optional<GridDifference> difference;  ///< none: no picture is stored
     std::optional<double> error;               ///< mean difference from the path-traced picture; none: none is stored
-    std::optional<double> storedError;         ///< that of llvmpipe's picture
+    std::optional<double> storedError;         ///< `error` of llvmpipe's stored picture
     [[nodiscard]] bool passes() const;
 };
 
@@ -63,7 +63,7 @@ struct Stability {
     double seconds = 0.0;
     uint64_t frames = 0;
     uint64_t rounds = 0;       ///< restarts
-    uint64_t differing = 0;    ///< rounds whose picture was not that of the first, byte by byte
+    uint64_t differing = 0;    ///< rounds whose picture differs from the first round's, byte by byte
     uint64_t memoryBegin = 0;  ///< bytes of device memory after the first round
     uint64_t memoryEnd = 0;
     [[nodiscard]] bool passes() const { return differing == 0 && memoryEnd <= memoryBegin; }
@@ -72,7 +72,7 @@ struct Stability {
 struct Qualification {
     std::string version;
     gpu::DeviceDescription device;
-    bool validated = false;             ///< the validation layer was there
+    bool validated = false;             ///< the validation layer was active
     std::vector<std::string> messages;  ///< its messages
     std::vector<QualifiedPicture> pictures;
     std::map<std::string, LuminanceGrid> references;  ///< by scene, with QualifyPlan.references
@@ -83,13 +83,13 @@ struct Qualification {
     [[nodiscard]] bool passes() const;
 };
 
-/// By "scene preset": the grids that the program has, of llvmpipe; by "scene reference": of the path tracer.
+/// Grids built into the program. Keys: "scene preset" (rendered by llvmpipe) and "scene reference" (path traced).
 std::map<std::string, LuminanceGrid> storedGrids();
 std::string gridsText(const Qualification& q);
 
 GridDifference differenceOf(const LuminanceGrid& grid, const LuminanceGrid& stored);
 
-/// Each adds its part. Show progress. Throw Error.
+/// Each adds its part to `to`. Show progress. Throw Error.
 void qualifyPictures(const QualifyPlan& plan, gpu::Device& device, Qualification& to);
 void qualifyTimes(const QualifyPlan& plan, gpu::Device& device, Qualification& to);
 void qualifyStability(const QualifyPlan& plan, gpu::Device& device, Qualification& to);

@@ -11,7 +11,7 @@ namespace reflet {
 struct FrameCurve {
     std::string name;
     std::string unit;                   ///< empty: none
-    std::vector<double> values = {};    ///< one per frame; those that are not finite leave a gap
+    std::vector<double> values = {};    ///< one per frame; a value that is not finite leaves a gap
     std::optional<size_t> marked = {};  ///< index of the frame to point out
 };
 

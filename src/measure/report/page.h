@@ -26,7 +26,7 @@ struct ReportPass {
 
 struct ReportVariant {
     std::string name;
-    std::string settings;  ///< those that differ from the defaults, in the form of --set
+    std::string settings;  ///< settings that differ from the defaults, in the form of --set
     std::string picture;
     std::string truthErrorMap;    ///< FLIP against the ground truth
     std::string visibleErrorMap;  ///< FLIP against visible-only
@@ -56,22 +56,22 @@ struct ReportScene {
 };
 
 struct ReportPage {
-    std::string version;  ///< of the program
+    std::string version;  ///< program version
     std::string command;  ///< the command line that makes this report
     std::string device;
     uvec2 size{0};
     uint32_t seed = 0;
-    uint32_t frames = 0;              ///< rendered for each variant
-    std::optional<uint32_t> bounces;  ///< of the ground truth; none: unlimited
-    std::string errorScale;           ///< image of the error maps' colours, from 0 at the left to 1 at the right
-    std::string plotSvg;              ///< inline SVG: error against time over all variants; empty: no plot
+    uint32_t frames = 0;              ///< frames rendered for each variant
+    std::optional<uint32_t> bounces;  ///< bounces of the ground truth; none: unlimited
+    std::string errorScale;  ///< image file: colour bar of the error maps, from 0 at the left to 1 at the right
+    std::string plotSvg;     ///< inline SVG: error against time over all variants; empty: no plot
     std::vector<ReportScene> scenes;  ///< all with the same names of variants
 };
 
 /// The whole page. It refers to the image files by name and to nothing else.
 std::string reportHtml(const ReportPage& page);
 
-/// All numbers. Infinite ones (PSNR of equal images) are null.
+/// All numbers as JSON. Infinite ones (PSNR of equal images) are null.
 std::string reportJson(const ReportPage& page);
 
 /// A table for a document: rows for each scene and variant, for visible-only, and for the noise of the references.

@@ -11,8 +11,8 @@ namespace reflet {
 struct ScatterPoint {
     std::string label;   ///< beside the point; a long one is shortened there, and complete in the tooltip; may be empty
     std::string series;  ///< points of a series share colour, shape and Pareto front
-    double x = 0.0;      ///< less is better
-    double y = 0.0;      ///< less is better
+    double x = 0.0;      ///< smaller is better
+    double y = 0.0;      ///< smaller is better
 };
 
 struct ScatterPlot {

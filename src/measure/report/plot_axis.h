@@ -20,7 +20,7 @@ public:
 
     /// Position of a finite value > 0, from `start` to `end`.
     [[nodiscard]] double position(double value) const;
-    /// From low to high; at least two have a number.
+    /// Ticks from low to high; at least two have a number.
     [[nodiscard]] std::vector<AxisTick> ticks() const;
 
 private:

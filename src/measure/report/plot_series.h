@@ -13,14 +13,14 @@ struct PlotSeries {
     std::vector<size_t> points;  ///< indices
 };
 
-/// Whether it can be drawn on logarithmic axes; y = 0 can.
+/// Whether the point can be drawn on logarithmic axes; y = 0 can.
 bool drawable(const ScatterPoint& point);
 
-/// In the order of their first points.
+/// The series, in the order of their first points.
 std::vector<PlotSeries> seriesOf(const std::vector<ScatterPoint>& points);
 
-/// The Pareto front: the points of the series that no other one beats, sorted by x with falling y. Of equal points only
-/// the first.
+/// The Pareto front: the points of the series that no other one dominates, sorted by x with falling y. Of equal points
+/// only the first.
 std::vector<size_t> frontOf(const PlotSeries& series, const std::vector<ScatterPoint>& points);
 
 }  // namespace reflet

@@ -20,9 +20,9 @@ struct ReportWork {
     std::filesystem::path folder;  ///< exists
     uvec2 size{0};
     uint32_t seed = 0;
-    uint32_t frames = 1;         ///< of each variant
-    ReferenceOptions reference;  ///< of both references; visibleOnly is set here
-    TonemapSettings tonemap;     ///< of the references
+    uint32_t frames = 1;         ///< frames of each variant
+    ReferenceOptions reference;  ///< options of both references; visibleOnly is set by workOn
+    TonemapSettings tonemap;     ///< tone mapping of the references
     std::vector<Variant> variants;
 };
 

@@ -1,9 +1,9 @@
-// The background: what the camera sees where there is no surface, if it is not the environment itself. Shared by C++
-// and GLSL.
+// The background that the camera sees where there is no surface, if it is not the environment itself. Shared by C++ and
+// GLSL.
 //
-// It is put behind the finished radiance, which rays of this frame and of the next one do not read: so it lights
-// nothing and is in no reflection. A colour or transparency is laid under the display image, by how much of the pixel
-// surfaces cover; radiance is then premultiplied by that coverage, and divided by it before the tone curve.
+// It is composited behind the finished radiance, which no rays read: so it lights nothing and is in no reflection. A
+// colour or transparency is composited under the display image, weighted by the pixel's coverage by surfaces; radiance
+// is then premultiplied by that coverage, and divided by it before the tone curve.
 #ifndef REFLET_RENDERER_BACKGROUND_H
 #define REFLET_RENDERER_BACKGROUND_H
 
@@ -40,14 +40,14 @@ SHARED_END
 
 namespace reflet {
 
-/// The background of a frame, unless it is the environment itself.
+/// The background of a frame.
 struct FrameBackground {
     Background shown;
-    std::optional<EnvironmentLight> environment;  ///< only its texels; none: the environment itself is shown
+    std::optional<EnvironmentLight> environment;  ///< only its texels; none: the lighting environment is shown
 };
 
-/// The light with the background where there is no surface, and how much of each pixel surfaces cover, if the
-/// background needs it. The light itself if the environment is shown.
+/// The light with the background where there is no surface, and with coverage, if the background needs it. The light
+/// itself if the environment is shown.
 lighting::Light withBackground(gpu::PassList& f, const FrameBackground& background, const ViewParams& view,
                                const lighting::Light& light);
 
@@ -55,12 +55,12 @@ lighting::Light withBackground(gpu::PassList& f, const FrameBackground& backgrou
 gpu::Image displayOver(gpu::PassList& f, const FrameBackground& background, const LightingSettings& settings,
                        const lighting::Light& light, gpu::Image exposure);
 
-/// On the host, for images of the reference: radiance divided by the coverage, and a display image over the background.
+/// On the CPU, for images of the reference: radiance divided by the coverage, and a display image over the background.
 /// coverage: "Y", 0 to 1. Both change nothing unless the background needs coverage.
 FloatImage straightRadiance(const FloatImage& premultiplied, const FloatImage& coverage, const Background& background);
 Bitmap overBackground(const Bitmap& display, const FloatImage& coverage, const Background& background);
 
-/// Both, with the tone map between them: the display image of premultiplied radiance.
+/// Both, with tone mapping between them: the display image of premultiplied radiance.
 Bitmap displayedOver(const FloatImage& premultiplied, const FloatImage& coverage, const Background& background,
                      const TonemapSettings& settings);
 

@@ -1,5 +1,5 @@
-// Blended surfaces (alphaMode BLEND): composited over the light of the opaque ones, layer by layer. Shared by C++ and
-// GLSL.
+// Blended surfaces (alphaMode BLEND): order-independent transparency by depth peeling, composited over the light of the
+// opaque surfaces. Shared by C++ and GLSL.
 //
 // Depth peeling (C. Everitt, Interactive Order-Independent Transparency, 2001) finds the nearest blended surface of
 // each pixel, then the next one behind it, and so on. Each layer is a G-buffer of its own, which is lit like that of
@@ -45,32 +45,32 @@ namespace reflet {
 /// Whether the view may show blended surfaces.
 bool showsBlended(const DrawList& list, const ViewParams& view);
 
-/// Which surfaces of a layer count.
+/// Which surfaces of a layer are composited.
 enum class BlendSide : uint8_t { all, beforeGlass, behindGlass };
 
 /// The layer that blendLayer composites.
 struct BlendedLayer {
     gpu::Image depth;
-    gpu::Image motion;      ///< of its G-buffer, with alpha
+    gpu::Image motion;      ///< motion of its G-buffer, with alpha
     gpu::Image glassDepth;  ///< depth of the nearest glass; none with BlendSide::all
     bool first = false;     ///< nothing is in front of it
 };
 
-/// Composites a layer under those in front of it. accumulated: RGBA16F, their light and what they let through; written
-/// by the first layer. radiance: of the layer.
+/// Composites a layer under those in front of it. accumulated: RGBA16F: light and transmittance of the layers in front;
+/// written by the first layer. radiance: of the layer.
 void blendLayer(gpu::PassList& f, gpu::Image accumulated, gpu::Image radiance, const BlendedLayer& layer,
                 BlendSide side);
 
 /// over = accumulated layers over the light `behind` them; the alpha of `behind` is kept. RGBA16F, not the same image.
 void blendOver(gpu::PassList& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over);
 
-/// The same for the share of the pixel that surfaces cover, in red, green and blue.
+/// The same for coverage by surfaces, in red, green and blue.
 void coverOver(gpu::PassList& f, gpu::Image accumulated, gpu::Image behind, gpu::Image over);
 
-/// R32F: what the accumulated layers cover.
+/// Coverage by the accumulated layers: R32F.
 gpu::Image coverageOf(gpu::PassList& f, gpu::Image accumulated);
 
-/// RGBA16F: as blendOver, with the radiance of the layers and what they cover in two images.
+/// As blendOver, with radiance and coverage of the layers in two images. RGBA16F.
 gpu::Image blendAntialiased(gpu::PassList& f, gpu::Image radiance, gpu::Image covered, gpu::Image behind);
 
 }  // namespace reflet

@@ -1,9 +1,9 @@
 // Clear coats (KHR_materials_clearcoat): a second GGX layer of reflectance 0.04 over everything else. Shared by C++ and
 // GLSL.
 //
-// The coats of the surfaces that a view shows are a G-buffer of their own, black but for the layer. It is lit by the
-// same passes as other surfaces, with one more reflection ray per coated pixel, and composited over these: what is
-// beneath receives what the coat does not reflect.
+// The coats of the surfaces that a view shows are a separate G-buffer, black except for the layer. It is lit by the
+// same passes as other surfaces, with one more reflection ray per coated pixel, and composited over these: the surface
+// beneath receives the light that the coat does not reflect.
 #ifndef REFLET_RENDERER_COAT_H
 #define REFLET_RENDERER_COAT_H
 
@@ -31,17 +31,17 @@ bool coatsGlass(const DrawList& list, const Settings& settings);
 /// The surfaces whose coats are drawn.
 struct CoatedSurfaces {
     gpu::Image depth;        ///< as rendered, with the same list and view
-    gpu::Image nearerDepth;  ///< of the layer in front; none: `depth` is that of the nearest one
+    gpu::Image nearerDepth;  ///< depth of the layer in front; none: `depth` is the nearest layer
     enum class Kind : uint8_t { opaque, glass, blended } kind = Kind::opaque;
 };
 
-/// Composites the coats over `behind`, the light of these surfaces, with those of its layers that it has. seen: the
+/// Composites the coats over `behind`, the light of these surfaces, including any layers that it has. seen: the
 /// surfaces, with their shadows, and the screen that reflections read. Reflected light counts as indirect specular.
 LightLayers addCoats(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                      const CoatedSurfaces& surfaces, const LightLayers& behind);
 
-/// The same for the opaque surfaces of a view; `behind` itself if none that it shows has a coat. Transmissive ones
-/// count as opaque where they are drawn so.
+/// The same for the opaque surfaces of a view; returns `behind` itself if no visible surface has a coat. Transmissive
+/// surfaces count as opaque if they are drawn so.
 LightLayers withCoats(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                       const LightLayers& behind);
 lighting::Light withCoats(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,

@@ -22,8 +22,8 @@ SHARED_END
 namespace reflet {
 
 /// Depth of the nearest back face behind the G-buffer's surface, per pixel: D32, reversed, 0: none. For closed objects
-/// that is their own far side, for open sheets that of the next object behind, if any. depth: the G-buffer's depth as
-/// rendered (same view and list), of the view's size. withoutGlass: as that of the G-buffer.
+/// that is their own far side; for open sheets it is the far side of the next object behind, if any. depth: the
+/// G-buffer's depth as rendered (same view and list), of the view's size. withoutGlass: as for the G-buffer.
 gpu::Image drawBackDepth(gpu::PassList& f, const DrawList& list, gpu::Image depth, const ViewParams& view,
                          bool withoutGlass = false);
 

@@ -25,12 +25,12 @@ SHARED_BEGIN
           "jittered frames; flickers without it. Above 0: blurrier.")
 SETTINGS(MaterialsSettings, MATERIALS_SETTINGS)
 
-// What is drawn, as the specialization constant `surfaces`.
-const uint surfacesOpaque = 0;   // and blended ones from an alpha of blendedFrom on
+// Which surfaces are drawn: values of the specialization constant `surfaces`.
+const uint surfacesOpaque = 0;   // opaque ones, and blended ones from an alpha of blendedFrom on
 const uint surfacesNearest = 1;  // the nearest translucent ones in front of the opaque ones
-const uint surfacesBehind = 2;   // the next ones, behind those of another layer
+const uint surfacesBehind = 2;   // the next translucent ones, behind another layer
 
-// What those translucent surfaces are, as the specialization constant `translucent`.
+// Kind of these translucent surfaces: values of the specialization constant `translucent`.
 const uint translucentBlended = 0;
 const uint translucentGlass = 1;
 const uint translucentCoat = 2;  // the clear coats of opaque surfaces
@@ -57,23 +57,23 @@ SHARED_END
 
 namespace reflet {
 
-/// What of the draw list a G-buffer holds.
+/// Which surfaces of the draw list a G-buffer holds.
 struct GBufferContent {
     vec4 clipPlane{0.0F};             ///< as in GBufferParams; zero: none
     float blendedFrom = opaqueAlpha;  ///< alpha from which blended surfaces count as opaque
-    gpu::Image opaqueDepth{};         ///< given: translucent surfaces in front of this; none: opaque surfaces
-    gpu::Image nearerDepth{};         ///< given: of those the nearest ones behind this; none: the nearest ones
+    gpu::Image opaqueDepth{};         ///< given: translucent surfaces in front of this depth; none: opaque surfaces
+    gpu::Image nearerDepth{};         ///< given: the nearest translucent surfaces behind this depth; none: the nearest
     bool glass = false;               ///< translucent surfaces are transmissive ones, not blended ones
-    /// The clear coats of those surfaces, or of the opaque ones: black dielectrics of the standard reflectance, whose
-    /// share is in the motion's alpha. opaqueDepth: of the surfaces themselves.
+    /// The clear coats of those surfaces, or of the opaque ones: black dielectrics of the standard reflectance, with
+    /// the coat's share in the motion's alpha. opaqueDepth: of the surfaces themselves.
     bool coat = false;
-    bool blendedCoats = false;  ///< those of a layer of blended surfaces, not of the opaque ones
+    bool blendedCoats = false;  ///< coats of a layer of blended surfaces, not of the opaque ones
     /// The other side of opaque surfaces that transmit diffuse light: Lambert, with normals away from the camera.
     /// opaqueDepth: as with coats.
     bool otherSide = false;
     bool withoutGlass = false;            ///< transmissive surfaces do not count as opaque
     std::optional<uint32_t> bothSides{};  ///< index of a draw whose back faces are drawn, too
-    float levelScale = 1.0F;              ///< levels of detail are those of a view of this many times the pixels a side
+    float levelScale = 1.0F;  ///< levels of detail are chosen as for a view with sides this many times longer
 };
 
 /// Draws the list, which must live until the frame has ended, for the view: reversed Z, back faces of single-sided

@@ -9,10 +9,10 @@ namespace reflet {
 
 struct EmitterGroup {
     std::vector<uint32_t> lamps;  ///< indices into the block
-    LampParams seenFrom{};        ///< the lamp of the map, a sphere in the middle of the group
+    LampParams seenFrom{};        ///< lamp that the map is rendered from, a sphere in the middle of the group
 };
 
-/// At most `most` groups of the emitters of the block, near one another.
+/// Groups nearby emitters of the block, into at most `most` groups.
 std::vector<EmitterGroup> groupEmitters(const LampBlock& block, uint32_t most);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// The shadow maps of lamps: which lamps have one, and their drawing.
+// The shadow maps of lamps: assigns them to lamps, and draws them.
 #pragma once
 
 #include "effects/shadow/lamp_shadow.h"
@@ -12,10 +12,10 @@
 namespace reflet {
 
 /// Assigns tiles to as many lamps as `settings` allow: the strongest by the largest of red, green and blue intensity
-/// (directional lamps: that of a lamp which brings their irradiance from 5 metres), independent of the view, so that
+/// (directional lamps: the intensity that gives their irradiance from 5 metres away), independent of the view, so that
 /// shadows do not pop as the camera moves. Sets the lamps' `shadow`. Tiles are halved in size until the atlas has at
-/// most `largestSide` texels a side. Reflected suns come first; those without a tile get no light. `warn` receives
-/// messages about what is left out.
+/// most `largestSide` texels per side. Reflected suns come first; those without a tile are switched off. `warn`
+/// receives messages about lamps left out.
 LampShadows planLampShadows(LampBlock& lamps, const ShadowSettings& settings, uint32_t largestSide,
                             const LampShadowScene& scene, const std::function<void(const std::string&)>& warn);
 

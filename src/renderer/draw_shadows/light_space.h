@@ -9,7 +9,7 @@ namespace reflet {
 struct LightSpace {
     mat3 worldToLight;
     vec3 toSun;  ///< world space, unit
-    Aabb scene;  ///< scene bounds in light space; its z range, slightly padded, is the depth of every map
+    Aabb scene;  ///< scene bounds in light space; its z range, slightly padded, is the depth range of every map
 };
 
 /// sceneBounds: not empty. direction: direction of travel of the light.
@@ -18,7 +18,7 @@ LightSpace lightSpaceOf(const Aabb& sceneBounds, const vec3& direction);
 /// Bounds, in the space of `axes` (from world space), of the part of a box that a view shows.
 Aabb visibleBounds(const Aabb& box, const mat4& clipToWorld, const mat3& axes);
 
-/// Rounded up to the next eighth of an octave (steps of 9 %).
+/// Rounds up to the next eighth of an octave (steps of 9 %).
 float steppedUp(float metres);
 
 /// A map of `resolution` texels from `low` to `high`, without snapping.
@@ -28,7 +28,7 @@ ShadowMapParams mapOf(const LightSpace& light, const glm::dvec2& low, const glm:
 /// depends only on sun direction and `extent`; texel corners are at whole multiples of it.
 ShadowMapParams snappedMap(const LightSpace& light, const vec2& low, const vec2& extent, uint resolution);
 
-/// For an empty scene.
+/// The map of an empty scene.
 ShadowMapParams emptyMap(const vec3& direction);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// The sun's shadow maps: fitted to the view and its casters, drawn, and drawn again only when something has changed.
+// The sun's shadow maps: fitted to the view and its casters, and redrawn only when something has changed.
 #pragma once
 
 #include "effects/shadow/shadow.h"
@@ -8,20 +8,20 @@
 namespace reflet {
 
 /// The maps for the settings: one by fitSunShadow or centredSunShadow, or cascades. `reach`: extra metres around the
-/// visible part for filters; two texels are always added. nearest: of nearestSurface; 0: unknown, and settings that
-/// leave the number of cascades open get one map.
+/// visible part for filters; two texels are always added. nearest: from nearestSurface(); 0: unknown: then settings
+/// with an automatic number of cascades get one map.
 SunShadowParams fitSunShadows(const ViewParams& view, const Aabb& sceneBounds, const vec3& direction,
                               const ShadowSettings& settings, float reach = 0.0F, float nearest = 0.0F);
 
-/// Distance in front of the camera before which no surface is in view, by bounding boxes [m]; the largest float: there
-/// is none in view.
+/// Lower bound of the distance of visible surfaces in front of the camera, by bounding boxes [m]; the largest float: no
+/// surface is in view.
 float nearestSurface(const ViewParams& view, const DrawList& list);
 
 /// Largest filter radius, perpendicular to the sun direction [m]. sunSlope: as in ShadowVisibilityParams.
 float filterReach(const Aabb& sceneBounds, const ShadowSettings& settings, float sunSlope);
 
-/// Fits an orthographic map of `resolution` texels to the visible part of `sceneBounds`, with the depth of the whole.
-/// direction: direction of travel of the light. Texels snap to a grid, and their size changes in steps of 9 %.
+/// Fits an orthographic map of `resolution` texels to the visible part of `sceneBounds`, with the depth range of all of
+/// it. direction: direction of travel of the light. Texels snap to a grid, and their size changes in steps of 9 %.
 ShadowMapParams fitSunShadow(const mat4& clipToWorld, const Aabb& sceneBounds, const vec3& direction, uint resolution,
                              float reach = 0.0F);
 
@@ -33,15 +33,16 @@ ShadowMapParams wholeSunShadow(const Aabb& sceneBounds, const vec3& direction, u
 SunShadowParams fitCascades(const ViewParams& view, const Aabb& sceneBounds, const vec3& direction,
                             const ShadowSettings& settings, float reach = 0.0F, float nearest = 0.0F);
 
-/// A fixed orthographic map of ±extent metres around the world's origin, with the depth of `sceneBounds`.
+/// A fixed orthographic map of ±extent metres around the world's origin, with the depth range of `sceneBounds`.
 ShadowMapParams centredSunShadow(const Aabb& sceneBounds, const vec3& direction, float extent, uint resolution);
 
 /// Draws depth from the sun, both sides of every surface: D32, reversed (1 nearest to the sun). A tile per cascade:
-/// 1x1, 2x1 or 2x2. opaqueOnly: of blended surfaces only what is opaque; else what has an alpha of blendCutoff.
+/// 1x1, 2x1 or 2x2. opaqueOnly: blended surfaces cast shadows only where they are opaque; otherwise, from an alpha of
+/// blendCutoff on.
 gpu::Image drawShadowMap(gpu::PassList& f, gpu::KeptImage& own, const DrawList& list, const SunShadowParams& sun,
                          const ShadowSettings& settings, bool opaqueOnly = false);
 
-/// What another map of the same size needs: its size, whether a cached one is still valid, its draws.
+/// Parts of drawShadowMap, for other maps of the same size: the size, whether a cached map is still valid, the draws.
 uvec2 sunMapSize(const SunShadowParams& sun, const ShadowSettings& settings);
 bool holdsSunMap(gpu::PassList& f, gpu::KeptImage& image, const DrawList& list, const SunShadowParams& sun,
                  const ShadowSettings& settings, bool opaqueOnly = false);

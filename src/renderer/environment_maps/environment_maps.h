@@ -8,11 +8,11 @@
 
 namespace reflet {
 
-/// Owns the images. Constant radiance is an image of one white texel.
+/// Owns the environment's images. Constant radiance is an image of one white texel.
 class EnvironmentMaps {
 public:
     EnvironmentMaps() = default;
-    /// prefilters: false: makes only the texels.
+    /// prefilters: false: makes only the texels, no prefiltered cube map.
     explicit EnvironmentMaps(bool prefilters) : prefilters_(prefilters) {}
 
     /// Records the upload and prefiltering of the image if it has changed; intensity and rotation may change freely.
@@ -27,7 +27,7 @@ private:
     std::shared_ptr<const FloatImage> image_;
     gpu::KeptImage texels_{"environment"};
     CubeMap cube_;
-    float scale_ = 1.0F;  ///< from radiance to stored values
+    float scale_ = 1.0F;  ///< factor from radiance to stored values
 };
 
 }  // namespace reflet

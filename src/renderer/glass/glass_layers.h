@@ -13,8 +13,8 @@ bool showsGlass(const ViewInputs& in, const Settings& settings);
 /// The nearest layer of glass.
 struct NearestGlass {
     gpu::Image depth;   ///< D32; 0: none. No image: the view shows no glass
-    gpu::Image motion;  ///< of its G-buffer
-    gpu::Image tint;    ///< of its GlassSurfaces
+    gpu::Image motion;  ///< motion of its G-buffer
+    gpu::Image tint;    ///< as in GlassSurfaces
 };
 
 struct LightThroughGlass {
@@ -22,19 +22,20 @@ struct LightThroughGlass {
     NearestGlass nearest;
 };
 
-/// Composites the glass over `behind`, the light of the view's opaque surfaces with those of its layers that it has,
-/// back to front: nearer glass refracts what is farther. Transmitted light counts as indirect specular. `behind` itself
-/// if the view shows no glass. opaque: what of `behind` is of opaque surfaces alone, which paths through glass read on
-/// the screen, as they meet blended surfaces by themselves; none: all of it.
+/// Composites the glass over `behind`, the light of the view's opaque surfaces including any layers that it has, back
+/// to front: nearer glass refracts farther glass. Transmitted light counts as indirect specular. Returns `behind`
+/// itself if the view shows no glass. opaque: the part of `behind` from opaque surfaces only, which paths through glass
+/// read on the screen, as they hit blended surfaces by themselves; none: all of it.
 LightThroughGlass throughGlass(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                                const LightLayers& behind, gpu::Image opaque = {});
 
-/// The same, with the depth of the nearest glass, and with depth and motion of volumes of glass, which the light then
-/// moves with.
+/// The same, and sets the depth of the nearest glass. In volumes of glass, the light is reprojected by their depth and
+/// motion.
 lighting::Light throughGlass(gpu::PassList& f, const ViewInputs& in, const Settings& settings, const TracedView& seen,
                              const lighting::Light& behind, gpu::Image opaque = {});
 
-/// Depth of the nearest glass before throughGlass has drawn it; 0: none. D32. None if the view shows no glass.
+/// Draws the depth of the nearest glass, for use before throughGlass(): D32; 0: none. No image if the view shows no
+/// glass.
 gpu::Image nearestGlass(gpu::PassList& f, const ViewInputs& in, const Settings& settings, gpu::Image opaqueDepth);
 
 }  // namespace reflet

@@ -1,7 +1,7 @@
 // Surfaces that transmit diffuse light (KHR_materials_diffuse_transmission). Shared by C++ and GLSL.
 //
-// What leaves a thin surface on the camera's side has arrived on the other one: those surfaces are a G-buffer of their
-// own, with normals that face away from the camera, lit by the same passes as other surfaces and added to their light.
+// Light that leaves a thin surface on the camera's side has arrived on its other side. So those surfaces have a
+// separate G-buffer, with normals that face away from the camera; it is lit by the same passes, and added to the light.
 #ifndef REFLET_RENDERER_OTHER_SIDE_H
 #define REFLET_RENDERER_OTHER_SIDE_H
 

@@ -14,26 +14,25 @@ namespace reflet {
 /// The bounding rectangle, with sides along `right` and `up`, of a planar part of an instance.
 struct FlatPiece {
     size_t instance = 0;     ///< index into Scene::instances
-    std::string name;        ///< of the instance
+    std::string name;        ///< name of the instance
     vec4 plane{0, 1, 0, 0};  ///< unit normal toward the front; dot(plane, (p, 1)): metres in front of it
     vec3 right{1, 0, 0};     ///< unit, as seen from the front
     vec3 up{0, 0, -1};       ///< unit; as near to +Y as the plane allows
-    vec2 low{0.0F};          ///< along right and up, from the world's origin [m]
+    vec2 low{0.0F};          ///< lower corner along right and up, from the world's origin [m]
     vec2 high{0.0F};
     float tolerance = 0.0F;  ///< largest distance of its vertices from the plane [m]
     float roughness = 0.0F;  ///< perceptual, mean over the material's texture
     vec3 f0{0.04F};          ///< reflectance at normal incidence, mean over the material's textures
-    float area = 0.0F;       ///< of its triangles [m²]
+    float area = 0.0F;       ///< area of its triangles [m²]
     bool doubleSided = false;
     bool bumpy = false;  ///< has a normal map
 };
 
-/// Planar parts of instances whose triangles lie in few planes, one per plane, at time 0. Other instances and deformed
-/// ones have none.
+/// Planar parts of instances whose triangles lie in few planes, one per plane, at time 0. Other and deformed instances
+/// have none.
 std::vector<FlatPiece> findFlatPieces(const Scene& scene);
 
-/// The pieces of the same scene at the given pose. pieces: from findFlatPieces; what is flat at time 0 is assumed to
-/// stay flat.
+/// The pieces of the same scene at the given pose. pieces: from findFlatPieces; they are assumed to stay flat.
 std::vector<FlatPiece> posedFlatPieces(std::span<const FlatPiece> pieces, const Scene& scene, const ScenePose& pose);
 
 /// A plane to reflect the camera in, and its extent on screen.
@@ -44,7 +43,7 @@ struct Mirror {
     vec2 low{0.0F};
     vec2 high{0.0F};
     float tolerance = 0.0F;
-    vec2 uvLow{0.0F};  ///< on the screen, within 0..1
+    vec2 uvLow{0.0F};  ///< extent on the screen, within 0..1
     vec2 uvHigh{0.0F};
     float area = 0.0F;  ///< share of the screen, ignoring occlusion
 };
@@ -58,7 +57,7 @@ FlatPiece turnedOver(FlatPiece piece);
 std::vector<Mirror> planMirrors(std::span<const FlatPiece> pieces, const ViewParams& view,
                                 std::span<const std::string> names, const PlanarSettings& settings);
 
-/// From metres along right and up to world space.
+/// Converts metres along right and up to a world-space point.
 vec3 pointOn(const Mirror& mirror, const vec2& at);
 
 }  // namespace reflet

@@ -1,4 +1,4 @@
-// Renders planar reflections: for each mirror of a frame, what reflection rays that start on it see in it.
+// Renders planar reflections: for each mirror of a frame, the view that reflection rays from it read.
 #pragma once
 
 #include "renderer/direct_view.h"
@@ -12,13 +12,13 @@
 
 namespace reflet {
 
-/// What the view of one mirror keeps for the next frame.
+/// State of one mirror's view that is kept for the next frame.
 struct PlanarStore {
     DirectViewStore direct;
-    std::unique_ptr<MirroredScene> room;  ///< that the frame draws; none but for form duplicate
+    std::unique_ptr<MirroredScene> room;  ///< mirrored scene that the frame draws; only for form duplicate
 };
 
-/// A view for each mirror. lampShadowMap: of the frame; may be none.
+/// Renders a view for each mirror. lampShadowMap: of the frame; may be none.
 std::vector<PlanarView> renderPlanarViews(gpu::PassList& f, std::vector<PlanarStore>& own, const ViewInputs& in,
                                           const Settings& settings, std::span<const Mirror> mirrors,
                                           gpu::Image lampShadowMap);

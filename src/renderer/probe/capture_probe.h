@@ -10,7 +10,7 @@ SHARED_BEGIN
 
 struct CaptureProbeParams {
     ViewParams view;
-    uint face;  // 6 · probe + its number
+    uint face;  // 6 · probe + face
 };
 
 struct RelightProbesParams {
@@ -33,7 +33,7 @@ SHARED_END
 
 namespace reflet {
 
-/// The camera at a probe for one cube face, 0 to 5: +X -X +Y -Y +Z -Z. Its image is the face mirrored left to right,
+/// The camera at a probe for one cube face, 0 to 5: +X -X +Y -Y +Z -Z. Its image is the face flipped left to right,
 /// because cube maps are left-handed.
 Camera cubeFaceCamera(const Probe& probe, uint32_t face);
 
@@ -50,9 +50,9 @@ public:
     void restart(bool sceneMoves);
 
 private:
-    /// Faces as they are drawn, of all probes, in this frame only.
+    /// Captured faces of all probes, in this frame only.
     struct Captured {
-        gpu::Image lit;      ///< RGBA16F: direct light without what lamps stand for
+        gpu::Image lit;      ///< RGBA16F: direct light, without emission that lamps replace
         gpu::Image surface;  ///< RGBA32UI, see probe_surface.glsl
     };
     struct Capture {
@@ -67,22 +67,22 @@ private:
     void captureAll(gpu::PassList& f, const ViewInputs& in, const Settings& settings);
     void captureNextFace(gpu::PassList& f, const ViewInputs& in, const Settings& settings);
     [[nodiscard]] Captured makeCaptured(gpu::PassList& f) const;
-    /// face: 6 · probe + its number. Returns the lamps' shadow map, to be shared with other faces of the frame.
+    /// face: 6 · probe + face. Returns the lamps' shadow map, to be shared with other faces of the frame.
     gpu::Image captureFace(gpu::PassList& f, const Capture& capture, uint32_t face, gpu::Image lampShadowMap = {});
 
     /// furtherLight: adds indirect light from the existing maps.
     void relight(gpu::PassList& f, const Capture& capture, const CubeFaces& faces, bool furtherLight);
 
-    DirectViewStore faces_;  ///< of the face that is captured
+    DirectViewStore faces_;  ///< of the face being captured
     CubeMap map_;
-    CubeMap matte_;        ///< without what lamps stand for; only its mips and irradiance are used
-    bool splits_ = false;  ///< whether there is such light
+    CubeMap matte_;        ///< without emission that lamps replace; only its mips and irradiance are used
+    bool splits_ = false;  ///< whether there is such emission
     gpu::Texture distance_;
     gpu::Texture atlas_;
     ProbeBlock block_{};
-    std::vector<std::byte> key_;  ///< everything that the captured maps depend on
+    std::vector<std::byte> key_;  ///< all inputs of the captured maps
     bool byFace_ = false;         ///< the maps were captured with refresh face
-    uint32_t facesCaptured_ = 0;  ///< with refresh face, since its start
+    uint32_t facesCaptured_ = 0;  ///< number of faces captured since the start of refresh face
 };
 
 }  // namespace reflet

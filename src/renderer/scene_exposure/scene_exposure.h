@@ -11,7 +11,7 @@ struct TonemapSettings;
 /// Whether pictures of the scene are exposed automatically (tonemap.auto_exposure).
 bool exposesAutomatically(const TonemapSettings& settings, const Scene& scene);
 
-/// Settings that show other pictures of the scene with the exposure of this one: `exposure` is the sum of the automatic
+/// Settings to display other pictures of the scene with this picture's exposure: `exposure` is the sum of the automatic
 /// exposure and the correction, and auto_exposure is off.
 TonemapSettings exposedAs(const TonemapSettings& settings, const Scene& scene, const FloatImage& radiance,
                           const FloatImage& depth);

@@ -13,26 +13,26 @@ SHARED_BEGIN
 struct SkinnedVertex {
     uint source;      // vertex in bind pose; the skinned vertex i is vertex SkinParams.firstVertex + i
     uint firstJoint;  // index of its first SkinnedWeight
-    uint jointCount;  // 0: morphed only, and stays in object space
+    uint jointCount;  // 0: only morphed, so it stays in object space
 };
 
 struct SkinnedWeight {
     uint joint;
-    float weight;  // those of a vertex sum to 1
+    float weight;  // the weights of a vertex sum to 1
 };
 
 // The morph deltas of one vertex. Indices count over all meshes and instances.
 struct MorphedVertex {
     uint firstDelta;
     uint deltaCount;
-    uint firstWeight;  // of its instance
+    uint firstWeight;  // first morph weight of its instance
 };
 
 struct SkinParams {
-    uint firstVertex;  // of the skinned vertices, which are contiguous
+    uint firstVertex;  // first skinned vertex; they are contiguous
     uint count;
-    uint jointCount;   // of all skins: the current joints, then those of the last frame
-    uint weightCount;  // of all instances, in the same way
+    uint jointCount;   // joints of all skins; the buffer has the current ones, then those of the last frame
+    uint weightCount;  // morph weights of all instances, in the same way
 };
 
 SHARED_END
@@ -53,7 +53,7 @@ class SkinnedVertices {
 public:
     /// Adds the vertices of a deformed instance. Vertices must be added in the order of their indices.
     void add(const Scene& scene, size_t instance, uint32_t firstSource);
-    /// Call after all were added. firstVertex: index of the first skinned vertex.
+    /// Call after all vertices were added. firstVertex: index of the first skinned vertex.
     void upload(gpu::Device& device, const Scene& scene, uint32_t firstVertex);
 
     [[nodiscard]] bool empty() const { return count_ == 0; }
@@ -81,7 +81,7 @@ private:
     std::vector<SkinnedWeight> addedWeights_;
     std::vector<MorphedVertex> addedMorphs_;  ///< one per added vertex; those without morph targets have no deltas
     std::vector<MorphDelta> addedDeltas_;
-    std::map<uint32_t, uint32_t> firstDelta_;  ///< of meshes
+    std::map<uint32_t, uint32_t> firstDelta_;  ///< first morph delta of each mesh
     std::vector<size_t> morphed_;              ///< instances, in the order of their weights
     gpu::Buffer vertices_;
     gpu::Buffer jointWeights_;

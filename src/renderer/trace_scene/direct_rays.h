@@ -1,4 +1,4 @@
-// Direct light with ray-traced shadows: as direct.h, but without shadow maps and with shadows of all lamps. Shared by
+// Direct light with ray-traced shadows: like direct.h, but without shadow maps, and all lamps cast shadows. Shared by
 // C++ and GLSL.
 #ifndef REFLET_RENDERER_DIRECT_RAYS_H
 #define REFLET_RENDERER_DIRECT_RAYS_H
@@ -12,7 +12,7 @@ SHARED_BEGIN
 struct DirectRaysParams {
     ViewParams view;
     SceneLights lights;
-    uint rays;  // shadow rays to the sun, and as many to lamps
+    uint rays;  // number of shadow rays to the sun, and the same number to lamps
 };
 
 SHARED_END

@@ -38,9 +38,9 @@ struct SceneInstance {
 };
 
 // Values of the specialization constant `throughGlass` (scene_surfaces.glsl): how paths pass glass.
-const uint glassStraight = 0;  // straight, by chance
-const uint glassRefracts = 1;  // as the reference's
-const uint glassOfView = 2;    // likewise; the rays are view rays, from in front of glass whose own light is known
+const uint glassStraight = 0;  // stochastically, without refraction
+const uint glassRefracts = 1;  // refracted as in the reference
+const uint glassOfView = 2;    // the same; rays are view rays that start in front of glass whose own light is known
 
 SHARED_END
 

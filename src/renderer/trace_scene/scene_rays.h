@@ -34,8 +34,8 @@ public:
     /// Keeps no reference to the scene. Throws Error if ray query is requested but not supported.
     SceneRays(gpu::Device& device, const Scene& scene, RayMethod method);
 
-    /// Moves everything to a pose of the same scene. The BVH of static geometry is not rebuilt. No frame that traces
-    /// may be in flight.
+    /// Updates all triangles to a pose of the same scene. The BVH of static geometry is not rebuilt. No frame that
+    /// traces may be in flight.
     void pose(gpu::Device& device, const Scene& scene, const ScenePose& pose);
 
     [[nodiscard]] RayMethod method() const { return method_; }
@@ -43,7 +43,7 @@ public:
 
     /// The shader variant for the method: "trace_scene" gives "trace_scene.comp" or "trace_scene_query.comp".
     [[nodiscard]] std::string shader(std::string_view name) const;
-    /// Binds what the shader's include reads.
+    /// Binds the resources of the shader's include.
     gpu::ComputePass& bind(gpu::ComputePass& pass) const;
 
 private:
@@ -52,7 +52,7 @@ private:
 
     RayMethod method_;
     std::optional<std::vector<SceneTriangle>> standing_;  ///< static triangles, once something has moved
-    std::optional<Bvh> standingBvh_;  ///< traversal: BVH of the static triangles, which are not kept then
+    std::optional<Bvh> standingBvh_;  ///< traversal: BVH of the static triangles, which then replaces `standing_`
     uint32_t triangleCount_ = 0;
     gpu::Buffer triangles_;
     gpu::Buffer nodes_;                        ///< traversal

@@ -22,7 +22,7 @@ namespace reflet {
 class SceneSurfaces {
 public:
     /// textureSize: maximum side of a layer in texels; larger images are downsampled, with a message to `warn`.
-    /// Vertices are those of `onDevice`, which must be of the same scene and outlive this.
+    /// Uses the vertices of `onDevice`, which must be of the same scene and outlive this.
     SceneSurfaces(gpu::Device& device, const Scene& scene, const GpuScene& onDevice, uint32_t textureSize,
                   const std::function<void(const std::string&)>& warn);
 
@@ -30,7 +30,7 @@ public:
     /// be in flight.
     void pose(gpu::Device& device, const Scene& scene, const GpuScene& onDevice, const ScenePose& now);
 
-    /// Binds what scene_surfaces.glsl reads.
+    /// Binds the resources of scene_surfaces.glsl.
     gpu::ComputePass& bind(gpu::ComputePass& pass) const;
 
 private:

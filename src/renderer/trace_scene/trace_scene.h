@@ -1,5 +1,5 @@
-// Ray tracing as a ray source: rays that earlier sources left are traced against the scene's BVH, on screen or off, and
-// hits are shaded with their materials and lights. Shared by C++ and GLSL.
+// Ray tracing as a ray source: rays that earlier sources missed are traced against the scene's BVH, on screen or off,
+// and hits are shaded with their materials and lights. Shared by C++ and GLSL.
 #ifndef REFLET_RENDERER_TRACE_SCENE_H
 #define REFLET_RENDERER_TRACE_SCENE_H
 
@@ -52,15 +52,15 @@ SETTINGS(TraceSceneSettings, TRACE_SCENE_SETTINGS)
 // Light parameters, apart from lamps and emissive surfaces.
 struct SceneLights {
     vec3 toSun;
-    float sunSine;       // of half the sun's angular diameter
-    vec3 sunIrradiance;  // on a surface that faces it [W/m²]
-    uint allLampsCast;   // 1: all lamps cast shadows; 0: those that LampParams::shadow says
-    uint lambertOnly;    // 1: materials are Lambert of their base colour
+    float sunSine;       // sine of half the sun's angular diameter
+    vec3 sunIrradiance;  // on a surface that faces the sun [W/m²]
+    uint allLampsCast;   // 1: all lamps cast shadows; 0: only those with LampParams::shadow
+    uint lambertOnly;    // 1: materials are Lambert diffuse with their base colour
 };
 
 struct TraceSceneParams {
-    ViewParams own;   // of the surfaces that rays start from
-    ViewParams view;  // of the screen
+    ViewParams own;   // view of the surfaces that rays start from
+    ViewParams view;  // view of the screen
     TraceSceneSettings settings;
     SceneLights lights;
     SunShadowParams sun;
@@ -71,8 +71,8 @@ struct TraceSceneParams {
     uint mips;          // 0: textures are read at the finest level
     uint fromPrevious;  // 1: screen light is the last frame's
     uint firstRay;
-    float cellSize;      // of the radiance cache
-    float samplesToEnd;  // of CacheBuffers
+    float cellSize;      // cell size of the radiance cache
+    float samplesToEnd;  // as in CacheBuffers
 };
 
 // Values of the specialization constant `sunShadows`.
@@ -104,15 +104,15 @@ struct TracedScene {
 struct TraceSceneInputs {
     const TracedScene& scene;
     const ScreenImages& screen;
-    gpu::Image shadowMap;  ///< of the sun; none without shadows or with ray-traced ones
+    gpu::Image shadowMap;  ///< the sun's; none without shadows or with ray-traced ones
     gpu::Image ggxTable;
     gpu::BufferView blueNoise;
     const EnvironmentLight& environment;
     const LampBlock& lamps;
-    const ProbeMaps& probes;  ///< if there are any, they bring the light of further bounces where a path ends
-    CacheBuffers cache;       ///< before them, if there is one; it learns from the paths
+    const ProbeMaps& probes;  ///< approximate further bounces where a path ends; may be empty
+    CacheBuffers cache;       ///< radiance cache, used before probes and updated by the paths; may be none
     uint32_t throughGlass = glassStraight;
-    float hitRadius = 0.0F;  ///< of smoothHits; below 1: off
+    float hitRadius = 0.0F;  ///< radius for smoothHits [pixels]; below 1: off
 };
 
 /// Hits get confidence 1. Misses stay in rays.waiting, marked as known misses, and so do rays beyond the budget and
