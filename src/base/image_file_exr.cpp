@@ -1,12 +1,12 @@
 // OpenEXR files with several layers, encoded and decoded in memory, so that all file errors are reported in one place.
 #include "base/image_file.h"
 
+#include "base/encoded_image.h"
 #include "base/error.h"
 #include "base/exr_check.h"
 #include "base/file.h"
 #include "base/image_camera.h"
 #include "base/limits.h"
-#include "base/encoded_image.h"
 
 #include <ImathBox.h>
 #include <ImfChannelList.h>

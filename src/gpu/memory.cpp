@@ -118,9 +118,12 @@ MemoryBlock* Memory::addBlock(uint32_t type, bool linear, VkDeviceSize size, VkI
                                                   VK_NULL_HANDLE};
     const void* next = image != VK_NULL_HANDLE ? static_cast<const void*>(&dedicated) : &flags;
     const VkMemoryAllocateInfo info{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, next, size, type};
-    lastResult_ = context_.allocateMemory(info, &block->memory);
-    if (lastResult_ != VK_SUCCESS) {
+    const VkResult result = context_.allocateMemory(info, &block->memory);
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY) {
         return nullptr;
+    }
+    if (result != VK_SUCCESS) {
+        failFor(size, result);
     }
     block->type = type;
     block->linear = linear;
@@ -138,6 +141,12 @@ MemoryBlock* Memory::addBlock(uint32_t type, bool linear, VkDeviceSize size, VkI
     reserved_ += size;
     ++context_.counts().memoryBlocks;
     return blocks_.emplace_back(std::move(block)).get();
+}
+
+void Memory::failFor(VkDeviceSize size, VkResult result) const {
+    throw OutOfMemory(
+        fmt::format("out of device memory: {} MiB needed in addition to {} MiB in use ({}); render at a smaller size",
+                    size >> 20U, reserved_ >> 20U, resultName(result)));
 }
 
 MemoryBlock* Memory::addBlockFor(VkDeviceSize size, uint32_t type, bool linear, VkImage image) {
@@ -171,9 +180,7 @@ Allocation Memory::allocate(const VkMemoryRequirements& needs, MemoryUse use, bo
             return placed(*block, block->take(needs.size, needs.alignment).value());
         }
     }
-    throw OutOfMemory(
-        fmt::format("out of device memory: {} MiB needed in addition to {} MiB in use ({}); render at a smaller size",
-                    needs.size >> 20U, reserved_ >> 20U, resultName(lastResult_)));
+    failFor(needs.size, VK_ERROR_OUT_OF_DEVICE_MEMORY);
 }
 
 void Memory::release(const Allocation& allocation) {

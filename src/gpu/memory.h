@@ -82,11 +82,13 @@ private:
     /// Memory types that suit the use, best first. The others are used when a heap is full: 256 MiB of host-visible
     /// device memory on GPUs without resizable BAR, or VRAM that other programs use.
     Types typesFor(uint32_t allowed, MemoryUse use) const;
-    // Both: null if the device has no memory left (lastResult_).
+    // Both: null if the device has no memory of this type left.
     MemoryBlock* addBlock(uint32_t type, bool linear, VkDeviceSize size, VkImage image);
     /// A block with room for `size` bytes: of the usual size, or, for large resources or in nearly full heaps, of
     /// exactly that size.
     MemoryBlock* addBlockFor(VkDeviceSize size, uint32_t type, bool linear, VkImage image);
+
+    [[noreturn]] void failFor(VkDeviceSize size, VkResult result) const;
 
     static thread_local std::shared_ptr<VkDeviceSize> account_;
 
@@ -96,7 +98,6 @@ private:
     std::vector<std::unique_ptr<MemoryBlock>> blocks_;
     VkDeviceSize reserved_ = 0;  ///< bytes allocated from the device
     std::array<VkDeviceSize, 3> used_{};
-    VkResult lastResult_ = VK_SUCCESS;  ///< of the device's allocation
 };
 
 }  // namespace reflet::gpu
