@@ -474,9 +474,8 @@ REFLET_API void refletJitter(uint32_t frameIndex, float jitter[2]);
  * Call it between refletBeginFrame, whose RefletFrameInfo::commandBuffer is the first, and refletEndFrame.
  *
  * The device must execute a view's calls in their order: buffers of one queue are submitted in that order, and between
- * two queues the host puts a semaphore (or the same for a command buffer that was used before). Each buffer contains
- * the barriers for the library's earlier commands. Images of the host need a layout and stages that the buffer's queue
- * supports.
+ * two queues the host puts a semaphore. Each buffer contains the barriers for the library's earlier commands. Images of
+ * the host need a layout and stages that the buffer's queue supports.
  */
 REFLET_API RefletResult refletUseCommandBuffer(RefletView view, VkCommandBuffer commandBuffer);
 
