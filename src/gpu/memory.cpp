@@ -73,12 +73,12 @@ Memory::~Memory() {
 
 namespace {
 
-// Others need features that are not enabled (protected, coherent for the device), or have no memory of their own.
-constexpr VkMemoryPropertyFlags usable = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
-                                         VK_MEMORY_PROPERTY_HOST_COHERENT_BIT | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+// These need features that are not enabled, or have no memory of their own.
+constexpr VkMemoryPropertyFlags unusable = VK_MEMORY_PROPERTY_PROTECTED_BIT | VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT |
+                                           VK_MEMORY_PROPERTY_DEVICE_COHERENT_BIT_AMD;
 
 bool has(VkMemoryPropertyFlags flags, VkMemoryPropertyFlags wish) {
-    return (flags & wish) == wish && (flags & ~usable) == 0;
+    return (flags & wish) == wish && (flags & unusable) == 0;
 }
 
 }  // namespace

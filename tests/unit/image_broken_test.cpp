@@ -141,7 +141,8 @@ TEST(BrokenImage, APngWhoseBytesDoNotFitTheirChecksumIsNotDecoded) {
     EXPECT_TRUE(complaintOf("a.png", png).starts_with("cannot be read as an image: ")) << complaintOf("a.png", png);
 }
 
-std::string progressiveJpeg(uint32_t size) {
+/// Of rows of values that grow by one; progressive, or, with four channels, CMYK as Adobe's programs store it.
+std::string libraryJpeg(uint32_t size, int channels = 3) {
     jpeg_error_mgr errors{};
     jpeg_compress_struct jpeg{};
     jpeg.err = jpeg_std_error(&errors);
@@ -151,12 +152,15 @@ std::string progressiveJpeg(uint32_t size) {
     jpeg_mem_dest(&jpeg, &bytes, &length);
     jpeg.image_width = size;
     jpeg.image_height = size;
-    jpeg.input_components = 3;
-    jpeg.in_color_space = JCS_RGB;
+    jpeg.input_components = channels;
+    jpeg.in_color_space = channels == 4 ? JCS_CMYK : JCS_RGB;
     jpeg_set_defaults(&jpeg);
-    jpeg_simple_progression(&jpeg);
+    if (channels == 3) {
+        jpeg_simple_progression(&jpeg);
+    }
+    jpeg_set_quality(&jpeg, 100, TRUE);
     jpeg_start_compress(&jpeg, TRUE);
-    std::vector<uint8_t> pixels(size_t{size} * 3);
+    std::vector<uint8_t> pixels(size_t{size} * static_cast<size_t>(channels));
     std::iota(pixels.begin(), pixels.end(), uint8_t{0});
     JSAMPROW row = pixels.data();
     while (jpeg.next_scanline < jpeg.image_height) {
@@ -169,7 +173,7 @@ std::string progressiveJpeg(uint32_t size) {
 }
 
 TEST(BrokenImage, AJpegHasNotMoreScansThanWritersMake) {  // each makes the decoder visit every block
-    const std::string whole = progressiveJpeg(32);
+    const std::string whole = libraryJpeg(32);
     const size_t last = whole.rfind("\xFF\xDA");
     const std::string scan = whole.substr(last, whole.size() - 2 - last);
     const auto withMoreScans = [&](int count) {
@@ -183,6 +187,18 @@ TEST(BrokenImage, AJpegHasNotMoreScansThanWritersMake) {  // each makes the deco
     EXPECT_EQ(complaintOf("a.jpg", withMoreScans(20)), "");
     EXPECT_EQ(complaintOf("a.jpg", withMoreScans(40)), "cannot be read as an image: it has too many scans");
     EXPECT_EQ(textureComplaint(withMoreScans(40)), "images[0]: is a broken image: it has too many scans");
+}
+
+TEST(BrokenImage, AJpegOfFourInksIsRgb) {
+    const auto file = testFolder() / "a.jpg";
+    writeFileAtomically(file, libraryJpeg(32, 4));
+    const Bitmap bitmap = readBitmap(file);
+    ASSERT_EQ(bitmap.channels, 3U);
+    for (size_t x = 0; x < 32; ++x) {  // of values 4x to 4x + 3, the last is the key
+        for (size_t c = 0; c < 3; ++c) {
+            EXPECT_NEAR(bitmap.data.at(3 * x + c), (4 * x + c) * (4 * x + 3) / 255.0, 3.0) << x;
+        }
+    }
 }
 
 TEST(BrokenImage, AJpegWithoutTablesHasTheStandardOnes) {  // as frames of Motion JPEG
