@@ -56,6 +56,8 @@ std::string statusText(const WindowStatus& status) {
                       {"frame_ms", work.live().milliseconds},
                       {"at_rest", status.atRest},
                       {"answered", work.redraws() == 0},
+                      {"inputs", status.inputs},
+                      {"pointer", {status.pointer.x, status.pointer.y}},
                       {"busy", status.busyWith},
                       {"progress", progressText(work.published, work.state.running, status.busyWith)},
                       {"scene", work.state.source.scene},

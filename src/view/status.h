@@ -14,6 +14,8 @@ struct WindowStatus {
     const CompareView& compare;
     const std::optional<Picked>& picked;
     uvec2 window{0};  ///< size in window units
+    vec2 pointer{0.0F};
+    uint64_t inputs = 0;  ///< see Window::inputs()
     std::string busyWith;
     uint64_t drawn = 0;  ///< redraws in total
     bool moving = false;

@@ -251,6 +251,8 @@ void Viewer::writeStatus() const {
                                   .compare = compare_,
                                   .picked = pixel_.picked(),
                                   .window = window_.size(),
+                                  .pointer = window_.pointer(),
+                                  .inputs = window_.inputs(),
                                   .busyWith = render_.busyWith(),
                                   .drawn = drawn_,
                                   .moving = moving_,

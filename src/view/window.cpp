@@ -129,12 +129,12 @@ Window::Window(const std::string& title, uvec2 size) {
     });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* handle, int, int action, int) {
         Window& self = windowOf(handle);
-        self.happened_ = true;
+        self.countInput();
         if (action == GLFW_PRESS) {
             self.pressedAt_ = self.pointer_;
         }
     });
-    glfwSetScrollCallback(window_, [](GLFWwindow* handle, double, double) { windowOf(handle).happened_ = true; });
+    glfwSetScrollCallback(window_, [](GLFWwindow* handle, double, double) { windowOf(handle).countInput(); });
     glfwSetCharCallback(window_, [](GLFWwindow* handle, unsigned) { windowOf(handle).happened_ = true; });
     glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* handle, int, int) { windowOf(handle).happened_ = true; });
     glfwSetWindowRefreshCallback(window_, [](GLFWwindow* handle) { windowOf(handle).happened_ = true; });
@@ -154,14 +154,19 @@ Window::Window(const std::string& title, uvec2 size) {
     ImGui::GetIO().FontGlobalScale = 1.0F / std::max(pixelsPerUnit, 1.0F);
     ImGui_ImplGlfw_InitForVulkan(window_, true);
     glfwSetKeyCallback(window_, [](GLFWwindow* handle, int key, int code, int action, int mods) {
+        windowOf(handle).countInput();
         windowOf(handle).takeKey({key, code, action, mods});
     });
+}
+
+void Window::countInput() {
+    happened_ = true;
+    ++inputs_;
 }
 
 // Text fields (before ImGui 1.87) poll which keys are down, and would lose a key that is pressed and released between
 // two frames: once a key is pressed, releases are deferred until after the next frame.
 void Window::takeKey(const KeyEvent& event) {
-    happened_ = true;
     if (event.action == GLFW_RELEASE) {
         shortcuts_.erase(event.key);
     } else if ((event.mods & GLFW_MOD_CONTROL) != 0) {
@@ -288,6 +293,7 @@ const ImDrawData& Window::endUi() {
     ImGui::Render();
     pressed_ = false;
     for (const KeyEvent& event : std::exchange(released_, {})) {
+        happened_ = true;
         takeKey(event);
     }
     return *ImGui::GetDrawData();

@@ -48,6 +48,10 @@ public:
     [[nodiscard]] bool isHeld(int key) const;
     /// Position of the pointer at the last button press.
     [[nodiscard]] vec2 pressedAt() const { return pressedAt_; }
+    /// Where the pointer is, in desktop units from the window's upper left.
+    [[nodiscard]] vec2 pointer() const { return pointer_; }
+    /// Presses and releases of keys and buttons, and steps of the wheel, in total.
+    [[nodiscard]] uint64_t inputs() const { return inputs_; }
     [[nodiscard]] bool closing() const;
     void close();
     void hide();
@@ -71,6 +75,7 @@ private:
         int mods = 0;
     };
 
+    void countInput();
     void takeKey(const KeyEvent& event);
 
     GLFWwindow* window_ = nullptr;
@@ -80,6 +85,7 @@ private:
     vec2 pressedAt_{0.0F};
     float scale_ = 1.0F;
     bool happened_ = true;
+    uint64_t inputs_ = 0;
     std::vector<KeyPress> keys_;
     std::set<int> shortcuts_;  ///< keys pressed with Control, which may be released before them
     std::vector<std::string> dropped_;

@@ -25,8 +25,7 @@ using std::chrono::milliseconds;
 // compiles the pipelines of a preset and renders it to its rest, as the longest of what a test waits for.
 constexpr std::chrono::seconds leastPatience(60 * test::slowness);
 constexpr int openings = 6;
-constexpr milliseconds betweenLooks(50);
-constexpr milliseconds handSpeed(45);
+constexpr milliseconds betweenLooks(20);
 
 }  // namespace
 
@@ -81,7 +80,6 @@ Variables DesktopTest::environment() const {
 void DesktopTest::use(const Arguments& arguments) const {
     const Outcome outcome = runOther("xdotool", arguments, environment());
     ASSERT_EQ(outcome.status, 0) << outcome.err;
-    std::this_thread::sleep_for(handSpeed);
 }
 
 void DesktopTest::startViewer(const Arguments& arguments) {
@@ -101,7 +99,7 @@ void DesktopTest::openViewer(const Arguments& arguments) {
 }
 
 Outcome DesktopTest::quit() {
-    press("ctrl+q");
+    use({"key", "ctrl+q"});
     Outcome outcome = finish(viewer_);
     viewer_ = 0;
     return outcome;
@@ -148,29 +146,38 @@ void DesktopTest::reveal(const std::string& control) const {
     constexpr int mostTurns = 12;
     for (const char* wheel : {"5", "4"}) {  // down, then up
         for (int i = 0; i < mostTurns && !status()["controls"].contains(control); ++i) {
-            use({"mousemove", "30", "200", "click", "--repeat", "3", wheel});
-            settle();
+            point(30.0, 200.0);
+            act({"click", "--repeat", "3", wheel}, 3);
         }
     }
 }
 
-// Waits until the window has drawn all that it was told: reported positions of controls are outdated during scrolling,
-// and ImGui 1.86 ignores a press and release within one redraw.
-void DesktopTest::settle() const {
-    constexpr milliseconds look(200);  // longer than events take to arrive
-    const auto mostLooks = std::max<long>(30 * test::slowness, patience_ / look);
-    for (long i = 0; i < mostLooks; ++i) {
-        std::this_thread::sleep_for(look);
-        if (status()["answered"].get<bool>()) {
+// Until the window has drawn all that it was told. Positions of controls are outdated while it scrolls, and before ImGui
+// 1.87 a press counts where the pointer is at the next redraw.
+void DesktopTest::answers(const std::function<bool(const nlohmann::json&)>& wanted) const {
+    const auto end = std::chrono::steady_clock::now() + std::max<milliseconds>(leastPatience / 10, patience_);
+    while (std::chrono::steady_clock::now() < end) {
+        if (const nlohmann::json now = status(); now["answered"].get<bool>() && wanted(now)) {
             return;
         }
+        std::this_thread::sleep_for(betweenLooks);
     }
+}
+
+void DesktopTest::act(const Arguments& arguments, size_t inputs) const {
+    const auto before = status()["inputs"].get<size_t>();
+    use(arguments);
+    answers([&](const nlohmann::json& now) { return now["inputs"].get<size_t>() >= before + inputs; });
+}
+
+void DesktopTest::point(double x, double y) const {
+    const std::array<int, 2> place{int(x), int(y)};
+    use({"mousemove", std::to_string(place[0]), std::to_string(place[1])});
+    answers([&](const nlohmann::json& now) { return now["pointer"] == nlohmann::json(place); });
 }
 
 void DesktopTest::click(const std::string& control) const {
-    settle();
     reveal(control);
-    settle();
     ASSERT_TRUE(shows([&](const nlohmann::json& now) { return now["controls"].contains(control); })) << control;
     const nlohmann::json place = status()["controls"][control];
     // Near the left edge, because the middle of a wide control may not be clickable.
@@ -178,27 +185,25 @@ void DesktopTest::click(const std::string& control) const {
 }
 
 void DesktopTest::clickAt(double x, double y) const {
-    use({"mousemove", std::to_string(int(x)), std::to_string(int(y))});
-    use({"mousedown", "1"});
-    use({"mouseup", "1"});
+    point(x, y);
+    act({"mousedown", "1"}, 1);
+    act({"mouseup", "1"}, 1);
 }
 
 void DesktopTest::drag(double fromX, double fromY, double toX, double toY) const {
-    use({"mousemove", std::to_string(int(fromX)), std::to_string(int(fromY))});
-    use({"mousedown", "1"});
-    use({"mousemove", std::to_string(int(0.5 * (fromX + toX))), std::to_string(int(0.5 * (fromY + toY)))});
-    use({"mousemove", std::to_string(int(toX)), std::to_string(int(toY))});
-    use({"mouseup", "1"});
+    point(fromX, fromY);
+    act({"mousedown", "1"}, 1);
+    point(0.5 * (fromX + toX), 0.5 * (fromY + toY));
+    point(toX, toY);
+    act({"mouseup", "1"}, 1);
 }
 
 void DesktopTest::press(const std::string& keys) const {
-    settle();
-    use({"key", keys});
+    act({"key", keys}, 2 * (1 + std::ranges::count(keys, '+')));
 }
 
 void DesktopTest::type(const std::string& text) const {
-    settle();
-    use({"type", "--delay", "15", text});
+    act({"type", "--delay", "15", text}, 2 * text.size());
 }
 
 void DesktopTest::resize(uint32_t width, uint32_t height) const {

@@ -36,6 +36,9 @@ protected:
     [[nodiscard]] bool shows(const std::function<bool(const nlohmann::json&)>& wanted) const;
     [[nodiscard]] bool atRest() const;
 
+    // Input. Each function returns when the window has drawn what the input changed, or after six seconds (longer with
+    // a sanitizer, or where opening the window took long).
+
     /// Clicks a control of the panels by its name, after scrolling it into view.
     void click(const std::string& control) const;
     void clickAt(double x, double y) const;
@@ -44,16 +47,16 @@ protected:
     void press(const std::string& keys) const;
     void type(const std::string& text) const;
     void resize(uint32_t width, uint32_t height) const;
-    /// Waits until the window has answered all input, for six seconds at most (longer with a sanitizer, or where
-    /// opening the window took long).
-    void settle() const;
-
     [[nodiscard]] int viewer() const { return viewer_; }  ///< process id
     [[nodiscard]] Variables environment() const;
 
 private:
     void reveal(const std::string& control) const;
-    void use(const Arguments& arguments) const;
+    void use(const Arguments& arguments) const;  ///< xdotool, without waiting
+    /// xdotool, until the window has answered so many presses, releases and steps of the wheel.
+    void act(const Arguments& arguments, size_t inputs) const;
+    void point(double x, double y) const;
+    void answers(const std::function<bool(const nlohmann::json&)>& wanted) const;
 
     std::chrono::milliseconds patience_{0};  ///< longest wait, by the time that opening the viewer took
     int desktop_ = 0;

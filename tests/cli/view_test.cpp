@@ -215,7 +215,6 @@ TEST_F(View, AScreenshotIsWhatRenderWritesAndAllComesBackTheNextTime) {
     const auto from = inPicture(0.5, 0.5);
     drag(from[0], from[1], from[0] - 40.0, from[1] + 12.0);
     EXPECT_TRUE(shows([&](const json& now) { return now["camera"] != first; }));
-    settle();  // the last of its moves may still be on the way
     EXPECT_TRUE(atRest());
 
     // The reference next to it, and the error between the two.
