@@ -152,8 +152,8 @@ void DesktopTest::reveal(const std::string& control) const {
     }
 }
 
-// Until the window has drawn all that it was told. Positions of controls are outdated while it scrolls, and before ImGui
-// 1.87 a press counts where the pointer is at the next redraw.
+// Until the window has drawn all that it was told. Positions of controls are outdated while it scrolls, and before
+// ImGui 1.87 a press counts where the pointer is at the next redraw.
 void DesktopTest::answers(const std::function<bool(const nlohmann::json&)>& wanted) const {
     const auto end = std::chrono::steady_clock::now() + std::max<milliseconds>(leastPatience / 10, patience_);
     while (std::chrono::steady_clock::now() < end) {
