@@ -39,6 +39,8 @@ neededByTests=(
     "chromium: opens the pages that reflet report writes"
     "xvfb: a desktop for tests of the window"
     "xdotool: its mouse and keys"
+    "fuse3: a file system that fails"
+    "libfuse3-dev: the same"
     "spirv-tools: checks compiled shaders"
     "python3-numpy: tests of the Python package"
     "vulkan-validationlayers: checks in tests that Vulkan is used as it wants to be"

@@ -110,7 +110,7 @@ std::vector<uint32_t> stillFrames(const BenchCommand& command, TruthKind truth) 
         failUsage("{} and --against exclude each other: --against measures no errors", option);
     }
     std::ranges::sort(frames);
-    frames.erase(std::ranges::unique(frames).begin(), frames.end());
+    frames.erase(std::unique(frames.begin(), frames.end()), frames.end());  // clang 14 has no std::ranges::unique
     return frames;
 }
 

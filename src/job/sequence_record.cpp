@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/interrupt.h"
 #include "base/json.h"
 #include "base/json_text.h"
 #include "base/message.h"
@@ -13,7 +14,9 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <span>
+#include <thread>
 
 namespace reflet {
 
@@ -72,9 +75,29 @@ void failIfDifferent(const std::string& what, const nlohmann::json& old, const n
     }
 }
 
+// Network file systems show the files of other machines late: NFS up to a minute, and at once after its folder is read.
+bool appears(const fs::path& file, std::chrono::seconds patience) {
+    const auto end = std::chrono::steady_clock::now() + patience;
+    while (!fs::exists(file)) {
+        if (std::chrono::steady_clock::now() >= end || InterruptNote::arrived()) {
+            return false;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        std::error_code ignored;
+        const fs::directory_iterator look(file.has_parent_path() ? file.parent_path() : fs::path("."), ignored);
+    }
+    return true;
+}
+
+// Of a record that exists, though this process may not see it yet.
+nlohmann::json readRecord(const fs::path& file) {
+    (void)appears(file, std::chrono::seconds(60));
+    return parseJsonFile(file);
+}
+
 void compareRecords(const FrameNames& names, const ordered_json& record,
                     const std::function<void(const std::string&)>& warn) {
-    nlohmann::json old = parseJsonFile(names.record());
+    nlohmann::json old = readRecord(names.record());
     if (!old.is_object()) {
         fail("{}: not a record of a sequence: replace it with --overwrite", names.record().string());
     }
@@ -132,7 +155,7 @@ void beginRecord(const fs::path& file, const ordered_json& record, const std::st
     if (!fs::exists(file) && writeNewFile(file, text)) {
         return;
     }
-    const nlohmann::json old = parseJsonFile(file);
+    const nlohmann::json old = readRecord(file);
     if (!old.is_object()) {
         fail("{}: not a record: {}", file.string(), cure);
     }
@@ -151,7 +174,7 @@ void beginSequence(const FrameNames& names, const ordered_json& record, bool ove
         return;
     }
     if (!fs::exists(names.record())) {
-        if (!pictures.empty()) {
+        if (!pictures.empty() && !appears(names.record(), std::chrono::seconds(2))) {
             fail(
                 "{} exists, but its record {} is missing: remove all files of that name with --overwrite, or choose "
                 "another name",

@@ -200,12 +200,17 @@ Outcome ProgramTest::interrupt(const Arguments& arguments, const std::vector<int
 }
 
 int ProgramTest::begin(const Arguments& arguments, const Variables& added) const {
-    return start(REFLET_PROGRAM, arguments, added, {folder_, said_ / "out", said_ / "err"});
+    const fs::path own = said_ / std::to_string(begun_.size());  // several may run at once
+    fs::create_directory(own);
+    const int process = start(REFLET_PROGRAM, arguments, added, {folder_, own / "out", own / "err"});
+    begun_[process] = own;
+    return process;
 }
 
 Outcome ProgramTest::finish(int process) const {
     const int status = waitFor(process);
-    return {status, readFile(said_ / "out"), readFile(said_ / "err")};
+    const fs::path& own = begun_.at(process);
+    return {status, readFile(own / "out"), readFile(own / "err")};
 }
 
 Outcome ProgramTest::killWhen(const Arguments& arguments, const std::function<bool()>& reached) const {

@@ -65,7 +65,8 @@ protected:
 
 private:
     std::filesystem::path folder_;
-    std::filesystem::path said_;  ///< captured output of runs, outside of the folder
+    std::filesystem::path said_;                          ///< captured output of runs, outside of the folder
+    mutable std::map<int, std::filesystem::path> begun_;  ///< the same of processes that run beside the test
 };
 
 /// Whether a program of that name is in PATH.

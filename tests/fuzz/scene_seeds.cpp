@@ -6,6 +6,7 @@
 #include "scene/view_file.h"
 #include "seeds.h"
 #include "unit/gltf_encoders.h"
+#include "unit/gltf_showcase.h"
 
 #include <stb/stb_image_write.h>
 #include <nlohmann/json.hpp>
@@ -105,12 +106,10 @@ void addFiles(std::vector<Seed>& seeds) {
 
 std::vector<Seed> sceneSeeds() {
     std::vector<Seed> seeds;
-    seeds.push_back({"gltf", "everything.glb", test::everything().glbBytes()});
+    for (auto& [name, builder] : test::showcase()) {
+        seeds.push_back({"gltf", name + ".glb", builder.glbBytes()});
+    }
     seeds.push_back({"gltf", "everything.gltf", test::everything().gltfBytes()});
-    seeds.push_back({"gltf", "slider.glb", test::slider().glbBytes()});
-    seeds.push_back({"gltf", "bent.glb", test::bent().glbBytes()});
-    seeds.push_back({"gltf", "morphing.glb", test::morphing().glbBytes()});
-    seeds.push_back({"gltf", "compressed.glb", test::compressed().glbBytes()});
     seeds.push_back({"draco", "square", textOf(test::dracoSquare())});
     addImages(seeds);
     addMeshopt(seeds);

@@ -192,7 +192,7 @@ void addSquares(GltfBuilder& b) {
     const int uvs = b.addFloats({0, 1, 1, 1, 1, 0, 0, 0}, "VEC2");
     const int indices = b.addAccessor<uint16_t>({0, 1, 2, 0, 2, 3}, "SCALAR", ushortType);
     const uint16_t corner = 2;
-    const std::array<float, 3> value{2, 2, 0};
+    const std::array<float, 3> value{2, 2, -1};
     const int sparse = b.add("accessors", b.document["accessors"][static_cast<size_t>(positions)]);
     b.document["accessors"][static_cast<size_t>(sparse)]["sparse"] = {
         {"count", 1},
@@ -243,9 +243,11 @@ GltfBuilder everything() {
     b.document["extensionsRequired"] = {"KHR_draco_mesh_compression"};
     b.addRoot({{"children", {1, 2, 3}}, {"translation", {1, 2, 3}}});
     b.add("nodes", {{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}}});
-    b.add("nodes", {{"mesh", 1}, {"camera", 0}, {"rotation", {0, 0, 0, 1}}});
+    b.add("nodes", {{"mesh", 1}, {"camera", 0}, {"rotation", {0, 0, 0, 1}}, {"translation", {0, 1.5, 1}}});
     b.add("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}, {"children", {4}}});
-    b.add("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}, {"scale", {1, 1, 2}}});
+    b.add("nodes", {{"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}},
+                    {"translation", {0.5, 0.5, 1}},
+                    {"scale", {1, 1, 2}}});
     return b;
 }
 

@@ -173,20 +173,24 @@ GltfBuilder morphing() {
     return b;
 }
 
-GltfBuilder compressed() {
+GltfBuilder compressed(bool exponential) {
     GltfBuilder b;
     const std::array<float, 9> corners{0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const std::array<uint32_t, 9> exponents{0, 0, 0, 1, 0, 0, 0, 1, 0};  // 1 times 2 to the 0
     const auto accessor = [&](const MeshoptView& view, int type, const char* kind) {
         return b.add(
             "accessors",
             {{"bufferView", addMeshopt(b, view)}, {"componentType", type}, {"count", view.count}, {"type", kind}});
     };
-    const int positions = accessor(meshoptVertices(corners.data(), 3, 12), floatType, "VEC3");
+    const int positions = accessor(
+        exponential ? meshoptVertices(exponents.data(), 3, 12, "EXPONENTIAL") : meshoptVertices(corners.data(), 3, 12),
+        floatType, "VEC3");
     const int indices = accessor(meshoptIndices({0, 1, 2}, 2, true), ushortType, "SCALAR");
     const int webp = addTextureOf(b, webpOf(2, 1, {1, 2, 3, 255, 4, 5, 6, 255}), "EXT_texture_webp");
     const int ktx = addTextureOf(b, ktx2Of(1, 1, 37, {9, 8, 7, 6}, true), "KHR_texture_basisu");
     const int material = b.add("materials", {{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", webp}}}}},
-                                             {"emissiveTexture", {{"index", ktx}}}});
+                                             {"emissiveTexture", {{"index", ktx}}},
+                                             {"emissiveFactor", {1, 1, 1}}});
     b.add("meshes", {{"primitives",
                       {{{"attributes", {{"POSITION", positions}}}, {"indices", indices}, {"material", material}}}}});
     const int places = b.addFloats({0, 0, 0, 5, 0, 0}, "VEC3");

@@ -42,7 +42,8 @@ void addMeshoptBuffers(GltfBuilder& b);
 /// the second one by (1, 0, 0). The weights go from (0, 0) to (1, 0.5) in 2 s.
 GltfBuilder morphing();
 
-/// A triangle from meshopt views, drawn as copies, with a WebP and a KTX 2 texture.
-GltfBuilder compressed();
+/// A triangle from meshopt views, drawn as copies, with a WebP and a KTX 2 texture. exponential: its positions are
+/// filtered.
+GltfBuilder compressed(bool exponential = false);
 
 }  // namespace reflet::test

@@ -142,7 +142,8 @@ TEST(Gltf, ASparseAccessorReplacesElementsOfItsBase) {
     GltfBuilder b = everything();
     const Scene scene = load(std::move(b)).scene;
     ASSERT_EQ(scene.meshes.size(), 3U);
-    EXPECT_EQ(scene.meshes[1].positions, (Vertices{{0, 0, 0}, {1, 0, 0}, {2, 2, 0}, {0, 0, 0}, {2, 2, 0}, {0, 1, 0}}));
+    EXPECT_EQ(scene.meshes[1].positions,
+              (Vertices{{0, 0, 0}, {1, 0, 0}, {2, 2, -1}, {0, 0, 0}, {2, 2, -1}, {0, 1, 0}}));
 }
 
 TEST(Gltf, ASparseAccessorWithoutABaseStartsFromZeros) {
