@@ -9,48 +9,71 @@ step() {  # text
 }
 
 cores=$(nproc)
-echo "Reflet's demo: packages, build, pictures. On a fresh machine with $cores cores about $(((350 / cores + 365 + 59) / 60)) minutes,"
-echo "less the next time. Everything but the packages stays in this folder (build/, out/)."
+fast=$(((250 / cores + 270 + 59) / 60)) # minutes, on a machine of our time that does nothing else
+echo "Reflet's demo: packages, build, pictures. On a fresh machine with $cores cores $fast to $((2 * fast)) minutes, and less the next"
+echo "time; it says how much is left once it has measured. Everything but the packages stays in this folder (build/, out/)."
 
 step "1 of 3: packages that the build needs (apt; about a minute if they are missing)"
 ./setup.sh
-step "2 of 3: build (about $((250 / cores)) s the first time)"
+step "2 of 3: build"
+# Ninja's lines, and every 20 s how long the rest takes by the C++ files so far, which are most of the work.
+showBuild() {  # files
+    local line files=$1 made=0 start=$SECONDS next=$((SECONDS + 20))
+    while IFS= read -r line; do
+        printf '%s\n' "$line"
+        [[ "$line" != *"Building CXX object"* ]] || made=$((made + 1))
+        if ((SECONDS >= next && made > 0)); then
+            echo "demo.sh: $made of $files C++ files in $((SECONDS - start)) s: about $(((SECONDS - start) * (files - made) / made)) s left"
+            next=$((SECONDS + 20))
+        fi
+    done
+}
 # The first time without the tests, which need more packages; a build that has them keeps them.
 if [[ ! -f build/build.ninja ]]; then
     mkdir -p build
     cmake --preset release -DREFLET_TESTS=OFF >build/configure.log 2>&1 || { cat build/configure.log >&2; exit 1; }
 fi
-cmake --build --preset release --parallel "$cores" --target reflet_program
+files=$(ninja -C build -n reflet_program | grep -c "Building CXX object" || true)
+cmake --build --preset release --parallel "$cores" --target reflet_program | showBuild "$files"
 
-step "3 of 3: pictures (about five minutes on two cores and no GPU)"
+step "3 of 3: pictures"
 reflet=build/bin/reflet
 mkdir -p out
 cards=""
 
-# Renders a picture unless there is one newer than the program, and adds it to the page.
-picture() {  # file, caption, arguments of reflet render...
-    local file=$1 caption=$2 start=$SECONDS
-    shift 2
+# Renders a picture unless there is one newer than the program, and adds it to the page. Work: what it takes in times of
+# a still; spent and left are of those that are rendered.
+spent=0
+made=0
+left=0
+picture() {  # work, file, caption, arguments of reflet render...
+    local work=$1 file=$2 caption=$3 start=$SECONDS
+    shift 3
+    left=$((left - work))
     if [[ "out/$file" -nt "$reflet" ]]; then
         echo "out/$file is up to date"
     else
-        "$reflet" render "$@" -o "out/$file"
-        echo "out/$file ($((SECONDS - start)) s)"
+        "$reflet" render "$@" --quiet -o "out/$file"
+        spent=$((spent + SECONDS - start))
+        made=$((made + work))
+        echo "out/$file ($((SECONDS - start)) s); about $((left * spent / made)) s left"
     fi
     local command="reflet render $* -o $file"
     cards+="<figure><a href=\"$file\"><img src=\"$file\" alt=\"$caption\" loading=\"lazy\"></a>"
     cards+="<figcaption>$caption<code>$command</code></figcaption></figure>"$'\n'
 }
 
-picture first.png "First look: a wet street at night, a frame of the default preset" builtin:street --preset balanced --size 640x360
 # To a variable first: a failure within `for … in $(…)` would go unnoticed.
-scenes=$("$reflet" list scenes)
+scenes=$("$reflet" list scenes | grep -v '^builtin:street ')
+left=$((6 + $(wc -l <<<"$scenes") + 1 + 3))
+echo "$(($(wc -l <<<"$scenes") + 3)) pictures; the first takes longest"
+picture 6 first.png "First look: a wet street at night, a frame of the default preset" builtin:street --preset balanced --size 640x360
 while read -r scene description; do
-    picture "${scene#builtin:}.png" "${scene#builtin:}: $description" "$scene" --size 480x270 --seconds 15
+    picture 1 "${scene#builtin:}.png" "${scene#builtin:}: $description" "$scene" --size 480x270 --seconds 10
 done <<<"$scenes"
-picture cave-direct.png "cave, direct light only: what indirect light adds is the difference" builtin:cave \
+picture 1 cave-direct.png "cave, direct light only: what indirect light adds is the difference" builtin:cave \
     --preset direct --size 480x270
-picture mirror-hall-hybrid.png "mirror-hall with planar reflections, ray tracing and probes where the screen has no data" \
+picture 3 mirror-hall-hybrid.png "mirror-hall with planar reflections, ray tracing and probes where the screen has no data" \
     builtin:mirror-hall --preset hybrid --size 320x180
 
 cat >out/index.html.part <<HTML
