@@ -15,7 +15,7 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i < outputs.items.length()) {
         CubeLookup at = inputs.items[i];
-        outputs.items[i] = CubeLight(cubeMapRadiance(sharp, at.cube, at.direction),
+        outputs.items[i] = CubeLight(textureLod(sharp, vec4(at.direction, float(at.cube)), 0.0).rgb,
                                      cubeMapLobe(lobes, at.cube, at.direction, at.roughness),
                                      cubeMapIrradiance(irradiance, at.cube, at.direction));
     }

@@ -1,5 +1,5 @@
-// Texel directions of cube maps, and lookups in prefiltered ones (cube_map.h): exact radiance, GGX-prefiltered
-// radiance, irradiance.
+// Texel directions of cube maps, and lookups in prefiltered ones (cube_map.h): GGX-prefiltered radiance and
+// irradiance.
 #ifndef REFLET_CUBE_MAP_GLSL
 #define REFLET_CUBE_MAP_GLSL
 
@@ -36,10 +36,6 @@ float cubeTexelSolidAngle(ivec2 texel, int side) {
 }
 
 // Lookups. All maps need trilinear filtering; directions may have any length except for 0.
-
-vec3 cubeMapRadiance(samplerCubeArray sharp, uint cube, vec3 direction) {
-    return textureLod(sharp, vec4(direction, float(cube)), 0.0).rgb;
-}
 
 // Fractional level of a roughness. Interpolates linearly in 1 / alpha (alpha limited by the texel size), because a
 // small light's mean falls quickly with roughness: halfway between roughness 0.2 and 0.4, a light of 0.1 rad is off by

@@ -25,8 +25,7 @@ uvec4 loadLampMask(ivec3 texel) { return texelFetch(lampMasks, texel, 0); }
 #include "shaders/lamp_shadow.glsl"
 #include "shaders/shadow_noise.glsl"
 
-const uint lampStream = 0x1a90u;       // of the noise
-const uint lampsPerEmitter = 4u;       // samples of a lamp over those of an emitter, of which there may be many
+const uint lampStream = 0x1a90u;  // of the noise
 
 LampReceiver receiver;
 float wayThroughCasters;  // from the receiver toward a directional lamp [m]

@@ -23,7 +23,6 @@ static_assert(sizeof(SceneTriangle) == 3 * cornerStride && offsetof(SceneTriangl
 
 SceneRays::SceneRays(gpu::Device& device, const Scene& scene, RayMethod method) : method_(method) {
     std::vector<SceneTriangle> triangles = sceneTriangles(scene);
-    triangleCount_ = static_cast<uint32_t>(triangles.size());
     if (method == RayMethod::traversal) {
         upload(device, buildBvh(triangles));
     } else {

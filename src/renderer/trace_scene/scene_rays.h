@@ -39,7 +39,6 @@ public:
     void pose(gpu::Device& device, const Scene& scene, const ScenePose& pose);
 
     [[nodiscard]] RayMethod method() const { return method_; }
-    [[nodiscard]] uint32_t triangleCount() const { return triangleCount_; }
 
     /// The shader variant for the method: "trace_scene" gives "trace_scene.comp" or "trace_scene_query.comp".
     [[nodiscard]] std::string shader(std::string_view name) const;
@@ -53,7 +52,6 @@ private:
     RayMethod method_;
     std::optional<std::vector<SceneTriangle>> standing_;  ///< static triangles, once something has moved
     std::optional<Bvh> standingBvh_;  ///< traversal: BVH of the static triangles, which then replaces `standing_`
-    uint32_t triangleCount_ = 0;
     gpu::Buffer triangles_;
     gpu::Buffer nodes_;                        ///< traversal
     gpu::AccelerationStructure acceleration_;  ///< query
