@@ -2,6 +2,7 @@
 #include "cli/bench_options.h"
 
 #include "cli/device_options.h"
+#include "cli/in_range.h"
 #include "cli/scene_arguments.h"
 #include "reference/sample_progress.h"
 
@@ -27,32 +28,32 @@ constexpr const char* benchFooter =
 
 void addTimesOptions(CLI::App& command, BenchCommand& options) {
     command.add_option("--first", options.firstFrames, "Measured frames without history")
-        ->check(CLI::Range(0U, 100000U))
+        ->check(inRange(0U, 100000U))
         ->capture_default_str();
     command
         .add_option("--warmup", options.warmup, "Unmeasured frames between those without history and the measured ones")
-        ->check(CLI::Range(0U, 1000000U))
+        ->check(inRange(0U, 1000000U))
         ->capture_default_str();
     command.add_option("--frames", options.frames, "Measured frames with history")
-        ->check(CLI::Range(1U, 1000000U))
+        ->check(inRange(1U, 1000000U))
         ->capture_default_str();
     command
         .add_option("--motion", options.motionFrames,
                     "Frames to compare while the camera orbits and animations play; 0: none")
-        ->check(CLI::Range(0U, 100000U))
+        ->check(inRange(0U, 100000U))
         ->capture_default_str();
     command
         .add_option("--orbit", options.orbit,
                     "Degrees that the camera orbits around its target over all --motion frames")
-        ->check(CLI::Range(-360.0F, 360.0F))
+        ->check(inRange(-360.0F, 360.0F))
         ->capture_default_str();
     command.add_option("--fps", options.fps, "Frames per second of the scene's animations during --motion")
-        ->check(CLI::Range(1.0F, 1000.0F))
+        ->check(inRange(1.0F, 1000.0F))
         ->capture_default_str();
     command
         .add_option("--rest", options.restFrames,
                     "Frames at rest after the motion, whose reflections are compared with their final value; 0: none")
-        ->check(CLI::Range(0U, 1000U))
+        ->check(inRange(0U, 1000U))
         ->capture_default_str();
     command.add_flag("--octaves", options.octaves,
                      "Errors of frames 1, 8, 32 and 128 of a still view, also by octave of spatial frequency");
@@ -63,7 +64,7 @@ void addTimesOptions(CLI::App& command, BenchCommand& options) {
         ->type_name("N,M,...")
         ->allow_extra_args(false)
         ->delimiter(',')
-        ->check(CLI::Range(1U, 1000000U));
+        ->check(inRange(1U, 1000000U));
     command
         .add_option("--motions", options.motions,
                     "Measure hard motion instead of scenes: cases such as pan-5, rods, lamp-off, or all of them")
@@ -71,7 +72,7 @@ void addTimesOptions(CLI::App& command, BenchCommand& options) {
         ->allow_extra_args(false)
         ->delimiter(',');
     command.add_option("--rounds", options.rounds, "With --against: runs of each program")
-        ->check(CLI::Range(1U, 1000U))
+        ->check(inRange(1U, 1000U))
         ->capture_default_str();
     command.add_flag("--no-bandwidth", options.noBandwidth, "Skip the bandwidth measurement; floors are left out");
 }
@@ -95,7 +96,7 @@ void addTruthOptions(CLI::App& command, BenchCommand& options) {
     command.add_flag("--truth-visible-only,!--truth-all-light", options.truthVisibleOnly,
                      "Scattered rays return light only from points that the camera sees [off]");
     command.add_option("--truth-spp", options.truthSamples, "Samples per pixel of the path tracer")
-        ->check(CLI::Range(2U, largestSamples))
+        ->check(inRange(2U, largestSamples))
         ->capture_default_str();
     command
         .add_option("--truth-filter", options.truthFilter,

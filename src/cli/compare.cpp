@@ -5,6 +5,7 @@
 #include "base/limits.h"
 #include "base/text.h"
 #include "cli/commands.h"
+#include "cli/in_range.h"
 #include "cli/output_files.h"
 #include "compare/heat_map.h"
 #include "job/sequence_names.h"
@@ -249,7 +250,7 @@ void addCompareCommand(CLI::App& app) {
     command
         ->add_option("--pixels-per-degree", options->pixelsPerDegree,
                      "Viewing condition for FLIP; 67: 0.7 m from a screen 0.7 m wide with 3840 pixels")
-        ->check(CLI::Range(1.0F, 1000.0F))
+        ->check(inRange(1.0F, 1000.0F))
         ->capture_default_str();
     command->footer(compareFooter());
     command->callback([options] { compare(*options); });

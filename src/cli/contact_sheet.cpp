@@ -4,6 +4,7 @@
 #include "base/progress.h"
 #include "cli/commands.h"
 #include "cli/device_options.h"
+#include "cli/in_range.h"
 #include "cli/output_files.h"
 #include "cli/script_arguments.h"
 #include "compare/picture_input.h"
@@ -185,10 +186,10 @@ void addContactSheetCommand(CLI::App& app) {
         ->type_name("WxH")
         ->capture_default_str();
     command->add_option("--columns", options->sheet.columns, "Pictures in a row, 1 to 1000 [for a sheet of about 16:9]")
-        ->check(CLI::Range(1U, 1000U))
+        ->check(inRange(1U, 1000U))
         ->type_name("N");
     command->add_option("--gap", options->sheet.gap, "Pixels between the pictures, 0 to 200")
-        ->check(CLI::Range(0U, 200U))
+        ->check(inRange(0U, 200U))
         ->type_name("PIXELS")
         ->capture_default_str();
     command->add_option("--names", options->names, "What stands below each picture")

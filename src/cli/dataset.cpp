@@ -1,5 +1,6 @@
 // `reflet dataset`: makes noisy and clean images with features, to train and test denoisers.
 #include "dataset/dataset.h"
+#include "cli/in_range.h"
 
 #include "base/error.h"
 #include "cli/commands.h"
@@ -33,12 +34,12 @@ void addCameraOptions(CLI::App& command, DatasetOptions& o) {
         ->capture_default_str();
     command.add_option("--path", o.path, "Keyframes for --cameras path (docs/view-files.md)")->type_name("FILE.json");
     command.add_option("--burst", o.burst, "Consecutive frames of each random camera, 1/fps apart: for motion")
-        ->check(CLI::Range(1U, 10000U))
+        ->check(inRange(1U, 10000U))
         ->capture_default_str();
     command.add_option("--fps", o.fps, "Frames per second: the time to the frame before, for motion vectors")
         ->capture_default_str();
     command.add_option("--speed", o.speed, "Factor on the speed of random cameras; 0: they stand still")
-        ->check(CLI::Range(0.0, 1000.0))
+        ->check(inRange(0.0, 1000.0))
         ->capture_default_str();
     command
         .add_option("--height", o.height,
@@ -81,21 +82,21 @@ void addImageOptions(CLI::App& command, DatasetOptions& o) {
         ->allow_extra_args(false)
         ->capture_default_str();
     command.add_option("--spp", o.samples, "Samples per pixel of clean images, at most")
-        ->check(CLI::Range(1U, 1U << 20U))
+        ->check(inRange(1U, 1U << 20U))
         ->capture_default_str();
     command.add_option("--noise", o.noise, "Clean images end when their noise falls below this (0.01: 1 %)")
-        ->check(CLI::Range(0.0F, 10.0F))
+        ->check(inRange(0.0F, 10.0F))
         ->capture_default_str();
     command
         .add_option("--clamp", o.clamp,
                     "Largest luminance of a sample's indirect light, in noisy and clean images alike; 0: none")
-        ->check(CLI::Range(0.0F, 1e6F))
+        ->check(inRange(0.0F, 1e6F))
         ->capture_default_str();
     command
         .add_option("--shutter", o.shutter,
                     "Motion blur of traced images, noisy and clean alike: share of the time between frames that the "
                     "shutter is open, around the frame's time. Features stay sharp")
-        ->check(CLI::Range(0.0F, 1.0F))
+        ->check(inRange(0.0F, 1.0F))
         ->capture_default_str();
     command
         .add_option("--layout", o.layout,
@@ -118,7 +119,7 @@ void addDatasetCommand(CLI::App& app) {
         ->required();
     command->add_option("-o,--output", options->folder, "Folder")->type_name("DIR")->required();
     command->add_option("--frames", options->frames, "Number of frames, over all scenes")
-        ->check(CLI::Range(1U, 10000000U))
+        ->check(inRange(1U, 10000000U))
         ->required();
     addCameraOptions(*command, *options);
     addLightOptions(*command, *options);
@@ -129,7 +130,7 @@ void addDatasetCommand(CLI::App& app) {
                      "Slurm job array; auto/N: K from a PBS array or GNU parallel (docs/many-machines.md)")
         ->type_name("K/N|auto|auto/N");
     command->add_option("--threads", options->threads, "CPU threads, 0: one per core; the result does not depend on it")
-        ->check(CLI::Range(0U, 4096U))
+        ->check(inRange(0U, 4096U))
         ->capture_default_str();
     addDeviceOption(*command, *device);
     addViewOptions(*command, options->view);

@@ -1,6 +1,7 @@
 // `reflet info`: what is in a scene, and what will not be drawn.
 #include "base/error.h"
 #include "base/json_text.h"
+#include "base/visible_text.h"
 #include "cli/commands.h"
 #include "job/camera_options.h"
 #include "scene/builtin.h"
@@ -137,11 +138,11 @@ ordered_json infoOf(const Scene& scene, const std::vector<std::string>& warnings
 
 std::string nameOr(const ordered_json& named, const char* otherwise) {
     const std::string name = named["name"];
-    return name.empty() ? otherwise : "'" + name + "'";
+    return name.empty() ? otherwise : "'" + oneLine(name) + "'";
 }
 
 void line(const char* what, const std::string& value) {
-    fmt::print("{:<14} {}\n", what, value);
+    fmt::print("{:<14} {}\n", what, visibleText(value));
 }
 
 // A file may have hundreds of thousands: the first of them, and how many more there are.
@@ -171,13 +172,15 @@ void printLists(const Scene& scene, const ordered_json& info) {
                            animation["seconds"].get<double>(), animation["channels"].get<uint64_t>(),
                            animation["plays"].get<bool>() ? "" : ", does not play unless --animation names it");
     });
-    printList("variant", scene.variants, [](const std::string& variant) { return variant; });
+    printList("variant", scene.variants, [](const std::string& variant) { return oneLine(variant); });
     printList("not drawn", info["not_drawn"], [](const ordered_json& warning) { return warning.get<std::string>(); });
 }
 
 void printText(const Scene& scene, const ordered_json& info) {
-    line("scene", scene.name);
-    const std::vector<std::string>& extensions = scene.extensions;
+    line("scene", oneLine(scene.name));
+    std::vector<std::string> extensions;
+    std::ranges::transform(scene.extensions, std::back_inserter(extensions),
+                           [](const std::string& name) { return oneLine(name); });
     line("extensions", extensions.empty() ? "none" : fmt::format("{}", fmt::join(extensions, ", ")));
     std::vector<std::string> counts;
     for (const auto& [name, value] : info["counts"].items()) {

@@ -1,6 +1,7 @@
 // `reflet list`: lists scenes, presets, shows, settings, devices, material variants; list_passes.cpp lists passes.
 #include "base/error.h"
 #include "base/json_text.h"
+#include "base/visible_text.h"
 #include "base/wrap.h"
 #include "capture/show.h"
 #include "cli/commands.h"
@@ -134,7 +135,7 @@ void listSettingsAsMarkdown() {
 // Without the file's warnings: they are about what is drawn.
 void listVariants(const std::string& file) {
     for (const std::string& name : loadGltf(file).variants) {
-        fmt::print("{}\n", name);
+        fmt::print("{}\n", visibleText(name));
     }
 }
 

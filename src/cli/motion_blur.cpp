@@ -1,5 +1,6 @@
 // `reflet motion-blur`: motion blur on a picture that was made elsewhere, or by the reference without a shutter.
 #include "effects/motion_blur/motion_blur.h"
+#include "cli/in_range.h"
 
 #include "base/error.h"
 #include "base/progress.h"
@@ -109,10 +110,10 @@ void addMotionBlurCommand(CLI::App& app) {
         ->type_name("orbit|FILE.json");
     command->add_option("--fps", options->sequence.fps, "Frames per second; frame 0 is at --time")
         ->type_name("F")
-        ->check(CLI::Range(0.001, 100000.0))
+        ->check(inRange(0.001, 100000.0))
         ->capture_default_str();
     command->add_option("--frames", options->frames, "Number of frames of the sequence")
-        ->check(CLI::Range(1U, 1000000U))
+        ->check(inRange(1U, 1000000U))
         ->capture_default_str();
     command->add_option("--frame", options->frame, "The picture's frame in it, counted from 0")->capture_default_str();
     addDeviceOption(*command, options->device);

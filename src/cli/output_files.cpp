@@ -18,6 +18,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
+/// Where writing to the path writes: to what a symbolic link names, also if that does not exist yet.
+fs::path writtenAt(const fs::path& path) {
+    std::error_code error;
+    const fs::path full = fs::absolute(path);
+    return fs::weakly_canonical(fs::is_symlink(full, error) ? full.parent_path() / fs::read_symlink(full, error) : full,
+                                error);
+}
+
 /// Also for files that do not exist yet.
 bool areOneFile(const fs::path& a, const fs::path& b) {
     std::error_code error;
@@ -27,8 +35,8 @@ bool areOneFile(const fs::path& a, const fs::path& b) {
     if (fs::exists(a, error)) {
         return false;
     }
-    const fs::path name = fs::weakly_canonical(fs::absolute(a), error);
-    return !error && name == fs::weakly_canonical(fs::absolute(b), error);
+    const fs::path name = writtenAt(a);
+    return !name.empty() && name == writtenAt(b);
 }
 
 /// Whether a sequence of this name has the file. Names with several runs of # are those of single files.
@@ -43,8 +51,16 @@ bool isFrameOf(const std::string& pattern, const fs::path& file) {
            fs::equivalent(fs::absolute(pattern).parent_path(), fs::absolute(file).parent_path(), error);
 }
 
+/// With each run of # as one: sequences whose names differ in the digits alone have files in common from some frame on.
+std::string withOneDigit(std::string name) {
+    const auto areDigits = [](char a, char b) { return a == '#' && b == '#'; };
+    name.erase(std::unique(name.begin(), name.end(), areDigits), name.end());
+    return name;
+}
+
 bool collide(const std::string& a, const std::string& b) {
-    return areOneFile(a, b) || isFrameOf(a, b) || isFrameOf(b, a);
+    return areOneFile(a, b) || isFrameOf(a, b) || isFrameOf(b, a) ||
+           (FrameNames::isPattern(a) && FrameNames::isPattern(b) && areOneFile(withOneDigit(a), withOneDigit(b)));
 }
 
 /// With what scenes name, if there is something that could be replaced.

@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "cli/commands.h"
 #include "cli/device_options.h"
+#include "cli/in_range.h"
 #include "cli/output_files.h"
 #include "job/scene_options.h"
 #include "scene/builtin.h"
@@ -121,7 +122,7 @@ void addQualifyCommand(CLI::App& app) {
         ->type_name("WxH");
     command->add_option("--seconds", options->seconds, "Length of the stability run, seconds")
         ->type_name("S")
-        ->check(CLI::Range(0.0, 86400.0))
+        ->check(inRange(0.0, 86400.0))
         ->capture_default_str();
     command
         ->add_option("--write-grids", options->grids,

@@ -1,5 +1,6 @@
 // The options of `reflet reference`.
 #include "cli/reference_options.h"
+#include "cli/in_range.h"
 
 #include "base/error.h"
 #include "base/text.h"
@@ -92,16 +93,16 @@ void addSamplingOptions(CLI::App& command, ReferenceCommand& options) {
         .add_option("--spp", options.samples,
                     fmt::format("Maximum samples per pixel [{}; with --noise {}]", standardSamples, largestSamples))
         ->type_name("N")
-        ->check(CLI::Range(1U, largestSamples));
+        ->check(inRange(1U, largestSamples));
     command.add_option("--noise", options.noise, "Stop when the noise falls below this (0.01: 1 %)")
         ->type_name("X")
-        ->check(CLI::Range(0.0F, 10.0F));
+        ->check(inRange(0.0F, 10.0F));
     command
         .add_option("--clamp", options.clamp,
                     "Largest luminance of a sample's indirect light; 0: none. Removes fireflies, and makes the image "
                     "darker where they were")
         ->type_name("X")
-        ->check(CLI::Range(0.0F, 1e6F))
+        ->check(inRange(0.0F, 1e6F))
         ->capture_default_str();
     command
         .add_option("--filter", options.filter,
@@ -127,7 +128,7 @@ void addLightOptions(CLI::App& command, ReferenceCommand& options) {
                     "Motion blur: share of the time between frames (--fps) that the shutter is open, around the "
                     "frame's time; 0: none. Camera, nodes, skins and morph targets move")
         ->type_name("X")
-        ->check(CLI::Range(0.0F, 1.0F))
+        ->check(inRange(0.0F, 1.0F))
         ->capture_default_str();
 }
 
@@ -144,12 +145,12 @@ void addLayerOptions(CLI::App& command, ReferenceCommand& options) {
         .add_option("--ao-radius", options.aoRadius,
                     "Metres within which surfaces count in the layer ambient_occlusion [1], as ao.radius")
         ->type_name("R")
-        ->check(CLI::Range(1e-6F, 1e9F));
+        ->check(inRange(1e-6F, 1e9F));
     command
         .add_option("--ao-falloff", options.aoFalloff,
                     "Share of that radius, at its end, over which they fade out [0], as ao.falloff")
         ->type_name("X")
-        ->check(CLI::Range(0.0F, 1.0F));
+        ->check(inRange(0.0F, 1.0F));
 }
 
 }  // namespace
@@ -167,13 +168,13 @@ std::vector<const CLI::Option*> addReferenceOptions(CLI::App& command, Reference
         ->allow_extra_args(false);
     std::vector<const CLI::Option*> sequenceOptions = addSequenceOptions(command, options.sequence, false);
     sequenceOptions.push_back(command.add_option("--frames", options.frames, "Sequences: number of frames")
-                                  ->check(CLI::Range(1U, 1000000U))
+                                  ->check(inRange(1U, 1000000U))
                                   ->capture_default_str());
     addSamplingOptions(command, options);
     addLightOptions(command, options);
     addLayerOptions(command, options);
     command.add_option("--threads", options.threads, "CPU threads, 0: one per core; the result does not depend on it")
-        ->check(CLI::Range(0U, 4096U))
+        ->check(inRange(0U, 4096U))
         ->capture_default_str();
     addScriptOptions(command, options.script);
     command.footer(referenceFooter);

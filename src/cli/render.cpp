@@ -5,6 +5,7 @@
 #include "base/progress.h"
 #include "cli/commands.h"
 #include "cli/device_options.h"
+#include "cli/in_range.h"
 #include "cli/option_hints.h"
 #include "cli/output_files.h"
 #include "cli/scene_arguments.h"
@@ -209,7 +210,7 @@ void addRenderCommand(CLI::App& app) {
         ->add_option("--frames", options->frames,
                      "Frames to render; the last one is written, or, with # in the name, all of them [1; for a single "
                      "image of a preset as many as its histories need to settle]")
-        ->check(CLI::Range(1U, 1000000U));
+        ->check(inRange(1U, 1000000U));
     command
         ->add_option(
             "--effort", options->effort,
@@ -217,7 +218,7 @@ void addRenderCommand(CLI::App& app) {
             "30 s) or high (up to 10 minutes); the end comes earlier if little noise is left [normal]")
         ->type_name("draft|normal|high");
     command->add_option("--seconds", options->seconds, "Stills: time for the picture, from the start of the program")
-        ->check(CLI::Range(0.1, 1e6))
+        ->check(inRange(0.1, 1e6))
         ->type_name("N");
     const auto sequenceOptions = addSequenceOptions(*command, options->sequence, true);
     command->add_option("--show", options->show, "Render target to write (see reflet list shows)")

@@ -7,6 +7,7 @@
 #include "cli/command_line.h"
 #include "cli/commands.h"
 #include "cli/device_options.h"
+#include "cli/in_range.h"
 #include "cli/scene_arguments.h"
 #include "compare/heat_map.h"
 #include "measure/report/plot.h"
@@ -197,10 +198,10 @@ void addTruthOptions(CLI::App& command, ReportCommand& options) {
                     fmt::format("Maximum samples per pixel of the references [{}; with --noise {}]", truthSamples,
                                 largestSamples))
         ->type_name("N")
-        ->check(CLI::Range(2U, largestSamples));  // noise cannot be estimated from one sample
+        ->check(inRange(2U, largestSamples));  // noise cannot be estimated from one sample
     command.add_option("--noise", options.noise, "Stop path tracing when the noise falls below this (0.01: 1 %)")
         ->type_name("X")
-        ->check(CLI::Range(0.0F, 10.0F));
+        ->check(inRange(0.0F, 10.0F));
 }
 
 }  // namespace
@@ -223,7 +224,7 @@ void addReportCommand(CLI::App& app) {
         ->allow_extra_args(false);
     addViewOptions(*command, options->shared);
     command->add_option("--frames", options->frames, "Frames to render per variant; the last one is shown")
-        ->check(CLI::Range(1U, 1000000U))
+        ->check(inRange(1U, 1000000U))
         ->capture_default_str();
     addTruthOptions(*command, *options);
     addDeviceOption(*command, options->device);

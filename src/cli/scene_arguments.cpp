@@ -1,5 +1,6 @@
 // The command line's options for scene, view, size and settings.
 #include "cli/scene_arguments.h"
+#include "cli/in_range.h"
 
 #include "base/error.h"
 #include "base/visible_text.h"
@@ -29,13 +30,13 @@ void addCameraArguments(CLI::App& command, SceneOptions& options) {
                     "What is in the middle of the image: a point in metres, or a node with a mesh, by name")
         ->type_name("X,Y,Z|NODE");
     command.add_option("--fov", o.fov, "Vertical field of view in degrees, 1 to 179")
-        ->check(CLI::Range(1.0, 179.0))
+        ->check(inRange(1.0, 179.0))
         ->type_name("DEGREES");
     command.add_option("--zoom", o.zoom, "Magnification, 0.01 to 100: 2 shows half of the image at twice the size")
-        ->check(CLI::Range(0.01, 100.0))
+        ->check(inRange(0.01, 100.0))
         ->type_name("FACTOR");
     command.add_option("--f-number", o.fNumber, "Depth of field of a full-frame lens, 0.01 to 1e6: 2.8 for f/2.8")
-        ->check(CLI::Range(0.01, 1e6))
+        ->check(inRange(0.01, 1e6))
         ->type_name("N");
     command
         .add_option("--focus", o.focus,
@@ -47,7 +48,7 @@ void addCameraArguments(CLI::App& command, SceneOptions& options) {
                     "without a sun gets one")
         ->type_name("AZ,EL");
     command.add_option("--exposure", options.exposure, "Exposure in stops, -24 to 24: setting tonemap.exposure")
-        ->check(CLI::Range(-24.0, 24.0))
+        ->check(inRange(-24.0, 24.0))
         ->type_name("STOPS");
     command
         .add_option("--save-view", options.saveView,

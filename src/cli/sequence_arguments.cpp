@@ -1,5 +1,6 @@
 // The command line's options for sequences.
 #include "cli/sequence_arguments.h"
+#include "cli/in_range.h"
 
 #include "base/error.h"
 #include "job/film.h"
@@ -34,7 +35,7 @@ std::vector<const CLI::Option*> addSequenceOptions(CLI::App& command, SequenceOp
             command
                 .add_option("--warmup", o.warmUp,
                             "Sequences: frames rendered before each segment to fill the history, but not written")
-                ->check(CLI::Range(0U, 10000U))
+                ->check(inRange(0U, 10000U))
                 ->type_name("FRAMES")
                 ->capture_default_str());
     }

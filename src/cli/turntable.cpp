@@ -4,6 +4,7 @@
 #include "base/progress.h"
 #include "cli/commands.h"
 #include "cli/device_options.h"
+#include "cli/in_range.h"
 #include "cli/option_hints.h"
 #include "cli/output_files.h"
 #include "cli/scene_arguments.h"
@@ -107,11 +108,11 @@ void addFilmOptions(CLI::App& command, TurntableOptions& options) {
         ->type_name("FILE")
         ->allow_extra_args(false);
     command.add_option("--seconds", options.seconds, "Length of the film, one turn, 0.1 to 3600")
-        ->check(CLI::Range(0.1, 3600.0))
+        ->check(inRange(0.1, 3600.0))
         ->type_name("N")
         ->capture_default_str();
     command.add_option("--fps", render.sequence.fps, "Frames per second, 1 to 240")
-        ->check(CLI::Range(1.0, 240.0))
+        ->check(inRange(1.0, 240.0))
         ->type_name("F")
         ->capture_default_str();
     command

@@ -28,7 +28,7 @@ struct SequencePlan {
     [[nodiscard]] std::vector<Run> runs(Share share, const std::function<bool(uint32_t frame)>& isMissing) const;
     /// The first frame of the shot that the frame belongs to.
     [[nodiscard]] uint32_t shotOf(uint32_t frame) const;
-    [[nodiscard]] uint32_t segments() const { return (frames + segment - 1) / segment; }
+    [[nodiscard]] uint32_t segments() const { return frames / segment + (frames % segment != 0 ? 1 : 0); }
     /// Number of frames to render, including warm-up frames.
     [[nodiscard]] uint64_t work(const std::vector<Run>& runs) const;
 };

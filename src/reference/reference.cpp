@@ -87,7 +87,7 @@ public:
             tracePass(done, count);
             done += count;
             progress_.noise = noise();
-            if (done > 1 && progress_.noise < options_.noise) {
+            if (done > 1 && options_.noise > 0.0F && !(progress_.noise >= options_.noise)) {
                 break;
             }
         }

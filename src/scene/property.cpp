@@ -1,6 +1,7 @@
 // Applies the values of animated properties.
 #include "scene/property.h"
 
+#include "scene/environment.h"
 #include "scene/sample_channel.h"
 
 #include <algorithm>
@@ -15,6 +16,7 @@ namespace {
 constexpr float infinite = std::numeric_limits<float>::infinity();
 constexpr float sharpEdge = 0.99F;  // of a cone's outer angle
 constexpr float smallest = 1e-6F;
+constexpr auto brightest = static_cast<float>(largestRadiance);
 constexpr float widest = 3.1415F;     // field of view [rad]
 constexpr float mostPassed = 0.999F;  // so that a surface that ever reflects is not taken for one that never does
 
@@ -92,7 +94,7 @@ public:
                 uvTransformOf(uv.offset, uv.rotation, uv.scale);
         }
         for (const auto& [node, light] : lights_) {
-            result_.lights.at(node).now.intensity = light.color * light.strength;
+            result_.lights.at(node).now.intensity = glm::min(light.color * light.strength, vec3(brightest));
         }
         for (auto& [node, light] : result_.lights) {
             Lamp& lamp = light.now;
@@ -119,7 +121,7 @@ private:
         } else if (channel.property == Property::emissiveFactor) {
             emissions_[index].color = glm::clamp(vec3(value), 0.0F, 1.0F);
         } else if (channel.property == Property::emissiveStrength) {
-            emissions_[index].strength = std::max(value.x, 0.0F);
+            emissions_[index].strength = std::clamp(value.x, 0.0F, brightest);
         } else if (channel.property == Property::uvOffset) {
             uvs_[{index, channel.texture}].offset = vec2(value);
         } else if (channel.property == Property::uvRotation) {
@@ -153,11 +155,11 @@ private:
         switch (property) {
             case Property::lightColor:
                 lampOf(node);
-                lights_[node].color = glm::max(vec3(value), 0.0F);
+                lights_[node].color = glm::clamp(vec3(value), 0.0F, brightest);
                 break;
             case Property::lightIntensity:
                 lampOf(node);
-                lights_[node].strength = std::max(value.x, 0.0F);
+                lights_[node].strength = std::clamp(value.x, 0.0F, brightest);
                 break;
             case Property::lightRange:
                 lampOf(node).range = std::max(value.x, smallest);

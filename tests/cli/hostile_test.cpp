@@ -128,6 +128,13 @@ TEST_F(Hostile, AFileMayHaveAnyNumberOfHashesInItsName) {
 TEST_F(Hostile, TwoOutputsOfOneNameAreRefused) {
     EXPECT_TRUE(refused(render("builtin:cubes", {"-o", "a.png", "--timings", "./a.png"}), usage, {"two outputs"}));
     EXPECT_TRUE(files().empty());
+    // Frame 10 has one name in both.
+    EXPECT_TRUE(
+        refused(render("builtin:cubes", {"--frames", "2", "--first-frame", "9", "-o", "a_#.png", "-o", "a_##.png"}),
+                usage, {"two outputs"}));
+    EXPECT_TRUE(files().empty());
+    fs::create_symlink("a.exr", path("link.exr"));
+    EXPECT_TRUE(refused(render("builtin:cubes", {"-o", "a.exr", "-o", "link.exr"}), usage, {"two outputs"}));
 }
 
 TEST_F(Hostile, AListOfNamesFromAFileIsShort) {

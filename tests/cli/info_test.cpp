@@ -34,5 +34,26 @@ TEST_F(Info, ListsTheFirstOfManyAndTheirNumber) {
     EXPECT_NE(json.out.find("\"c1999\""), std::string::npos);
 }
 
+// SECURITY.md: no text of a file reaches the terminal as it is.
+TEST_F(Info, NamesFromTheFileAreShownEscaped) {
+    const std::string name = R"(x\u202e\u001b]0;y\u0007\nz)";
+    write(
+        "names.gltf",
+        triangleAnd(fmt::format(
+            R"("nodes":[{{"mesh":0,"children":[1],"extensions":{{"KHR_lights_punctual":{{"light":0}}}}}},{{"camera":0}}],)"
+            R"("cameras":[{{"type":"perspective","name":"{0}","perspective":{{"yfov":1,"znear":0.1}}}}],)"
+            R"("extensionsUsed":["KHR_materials_variants","KHR_lights_punctual","{0}"],"extensions":{{)"
+            R"("KHR_lights_punctual":{{"lights":[{{"type":"point","name":"{0}"}}]}},)"
+            R"("KHR_materials_variants":{{"variants":[{{"name":"{0}"}}]}}}})",
+            name)));
+    for (const Arguments& command : {Arguments{"info", "names.gltf"}, Arguments{"list", "variants", "names.gltf"}}) {
+        const Outcome shown = run(command);
+        EXPECT_EQ(shown.status, 0) << shown.err;
+        EXPECT_NE(shown.out.find(R"(x\u202e\x1b]0;y\x07\nz)"), std::string::npos) << shown.out;
+        EXPECT_EQ((shown.out + shown.err).find_first_of("\x1b\a"), std::string::npos);
+        EXPECT_EQ((shown.out + shown.err).find("\u202e"), std::string::npos);
+    }
+}
+
 }  // namespace
 }  // namespace reflet::info_test

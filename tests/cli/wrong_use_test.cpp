@@ -75,6 +75,14 @@ TEST_F(WrongUse, AValueOutOfRangeIsReportedWithTheRange) {
     EXPECT_TRUE(refused(set("tonemap.exposure=24.5"), usage, {"tonemap.exposure", "-24 to 24", "'24.5'"}));
 }
 
+TEST_F(WrongUse, NanIsNoNumber) {
+    for (const char* option : {"--fov", "--zoom", "--f-number", "--seconds"}) {
+        EXPECT_TRUE(refused(run({"render", "builtin:cubes", option, "nan", "-o", "a.png"}), usage,
+                            {option, "must be a number, is 'nan'"}));
+    }
+    EXPECT_TRUE(refused(run({"qualify", "--seconds", "-nan"}), usage, {"--seconds", "must be a number"}));
+}
+
 TEST_F(WrongUse, AValueOfTheWrongTypeIsReportedWithTheRightOne) {
     EXPECT_TRUE(refused(set("diffuse.rays=1.5"), usage, {"diffuse.rays", "a whole number", "'1.5'"}));
     EXPECT_TRUE(refused(set("tonemap.exposure=bright"), usage, {"tonemap.exposure", "a number", "'bright'"}));

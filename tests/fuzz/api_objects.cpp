@@ -168,6 +168,9 @@ void ApiMachine::changeCache(CacheSlot& slot) {
         note(ApiCall::resetCache, refletResetRadianceCache(handle));
         return;
     }
+    if (std::ranges::any_of(views_, &ViewSlot::inFrame)) {
+        return;  // which may use it
+    }
     for (ViewSlot& view : views_) {  // the device must not use it any more
         finishFrames(view, 0);
     }

@@ -54,6 +54,7 @@ TEST(SequenceCuts, AreNotWhereItIsFast) {
 }
 
 TEST(SequenceCuts, PartRunsAndEndWarmUps) {
+    EXPECT_EQ((SequencePlan{.frames = 2, .segment = 4294967295}.segments()), 1U);
     const SequencePlan plan{.frames = 20, .segment = 10, .warmUp = 4, .cuts = {3, 10, 13}};
     const std::vector<SequencePlan::Run> runs = plan.runs(Share{}, [](uint32_t) { return true; });
     Frames begins;

@@ -264,6 +264,13 @@ INSTANTIATE_TEST_SUITE_P(
             {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 2}, {"zfar", 1}}}},
             "cameras[0].orthographic: zfar 1 is not beyond znear 2")
             .warns(noCamera),
+        set("CameraRangeBelowAFloat", "/cameras/0",
+            {{"type", "orthographic"}, {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 2.9999999}, {"zfar", 3}}}},
+            "cameras[0].orthographic: zfar 3 is not beyond znear 2.9999999")
+            .warns(noCamera),
+        set("LightTooBright", "/extensions/KHR_lights_punctual/lights/0/intensity", 3e38,
+            "extensions.KHR_lights_punctual.lights[0].intensity: is 3e+38")
+            .warns("1000000000000 will be used"),
         set("LightType", "/extensions/KHR_lights_punctual/lights/0/type", "area",
             "extensions.KHR_lights_punctual.lights[0].type: is \"area\"")
             .warns(noLamp),

@@ -116,10 +116,10 @@ TEST(Gltf, MissingNormalsAreFlatAndSharedVerticesAreSplit) {
 TEST(Gltf, NormalsWithoutADirectionComeFromTheTrianglesAndNeverAreNan) {
     const float nan = std::nanf("");
     GltfBuilder b;
-    const int positions = b.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 5, 5}, "VEC3");
-    const int normals = b.addFloats({0, 0, 0, nan, 0, 0, 0, 3, 4, 0, 0, 0}, "VEC3");
+    const int positions = b.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 5, 5, 5, 5, 5, 5, 5, 5}, "VEC3");
+    const int normals = b.addFloats({0, 0, 0, nan, 0, 0, 0, 3, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0}, "VEC3");
     b.addPrimitive({{"attributes", {{"POSITION", positions}, {"NORMAL", normals}}},
-                    {"indices", b.addAccessor<uint8_t>({0, 1, 2, 3, 3, 3}, "SCALAR", ubyteType)}});
+                    {"indices", b.addAccessor<uint8_t>({0, 1, 2, 3, 4, 5}, "SCALAR", ubyteType)}});
     const Loaded loaded = load(std::move(b));
     const auto& vertices = loaded.scene.meshes[0].attributes;
     EXPECT_EQ(vertices[0].normal, vec3(0, 0, 1));
@@ -127,7 +127,15 @@ TEST(Gltf, NormalsWithoutADirectionComeFromTheTrianglesAndNeverAreNan) {
     EXPECT_EQ(vertices[2].normal, vec3(0, 0.6F, 0.8F));
     EXPECT_EQ(vertices[3].normal, vec3(0, 1, 0));
     ASSERT_EQ(loaded.warnings.size(), 1U);
-    EXPECT_NE(loaded.warnings[0].find("3 vertices will get the normals of their triangles"), std::string::npos);
+    EXPECT_NE(loaded.warnings[0].find("5 vertices will get the normals of their triangles"), std::string::npos);
+}
+
+TEST(Gltf, TrianglesWithARepeatedVertexAreLeftOut) {
+    GltfBuilder b;
+    b.addPrimitive({{"attributes", {{"POSITION", b.addFloats({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, "VEC3")}}},
+                    {"indices", b.addAccessor<uint8_t>({0, 1, 2, 2, 1, 1, 1, 3, 2}, "SCALAR", ubyteType)},
+                    {"mode", 5}});
+    EXPECT_EQ(load(std::move(b)).scene.meshes.at(0).indices.size(), 3U * 2U);
 }
 
 TEST(Gltf, ADegenerateTriangleHasAFlatNormal) {

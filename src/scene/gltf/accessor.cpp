@@ -8,7 +8,9 @@ namespace reflet {
 
 namespace {
 
-constexpr uint64_t maxUnbackedCount = 1ULL << 22U;  // elements without data in the file, which are zero
+// Elements without data in the file, which are zero: all of them, or all but some.
+constexpr uint64_t maxZeros = 1ULL << 16U;
+constexpr uint64_t maxUnbackedCount = 1ULL << 22U;
 
 template <class T>
 T load(const uint8_t* bytes) {
@@ -137,10 +139,9 @@ AccessorView viewAccessor(const GltfDocument& document, int index, GltfReport& r
         const auto stride = document.model.bufferViews[static_cast<size_t>(accessor.bufferView)].byteStride;
         view.data = bytesAt(document.model, accessor.bufferView, accessor.byteOffset);
         view.stride = stride != 0 ? stride : bytesOf(view.componentType) * static_cast<uint64_t>(view.components);
-    } else if (accessor.count > maxUnbackedCount) {
+    } else if (const uint64_t most = accessor.sparse.isSparse ? maxUnbackedCount : maxZeros; accessor.count > most) {
         report.fail(fmt::format("accessors[{}]", index),
-                    "has {} elements without a buffer view, but at most {} are supported", accessor.count,
-                    maxUnbackedCount);
+                    "has {} elements without a buffer view, but at most {} are supported", accessor.count, most);
     }
     if (accessor.sparse.isSparse) {
         addSparse(view, document, index, report);

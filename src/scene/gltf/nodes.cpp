@@ -1,6 +1,7 @@
 // Places instances, cameras, lamps and the sun by the nodes of a glTF scene.
 #include "scene/gltf/nodes.h"
 
+#include "scene/environment.h"
 #include "scene/gltf/instancing.h"
 #include "scene/gltf/lens.h"
 #include "scene/gltf/morph.h"
@@ -29,7 +30,7 @@ Camera placeCamera(const tinygltf::Camera& source, const mat4& toWorld, const st
     camera.aims = false;
     if (source.type == "orthographic") {
         const auto& ortho = source.orthographic;
-        if (!(ortho.zfar > ortho.znear)) {
+        if (!(static_cast<float>(ortho.zfar) > static_cast<float>(ortho.znear))) {  // as they are used
             report.fail(part + ".orthographic", "zfar {} is not beyond znear {}", ortho.zfar, ortho.znear);
         }
         camera.orthographicHeight = static_cast<float>(2.0 * ortho.ymag);
@@ -68,8 +69,8 @@ Lamp placeLamp(const tinygltf::Light& source, const mat4& toWorld, const std::st
     setTransform(lamp, toWorld);
     const glm::dvec3 intensity = vectorOr(source.color, glm::dvec3(1.0)) * source.intensity;
     lamp.intensity = vec3(intensity);
-    if (!std::isfinite(glm::length(glm::dvec3(lamp.intensity)))) {
-        report.fail(part, "color times intensity is not finite");
+    if (!(std::max({intensity.x, intensity.y, intensity.z}) <= largestRadiance)) {
+        report.fail(part, "color times intensity is beyond {:g}", largestRadiance);
     }
     lamp.range = static_cast<float>(source.range);
     if (lamp.type == Lamp::Type::spot) {

@@ -168,12 +168,15 @@ std::vector<uint32_t> makeTriangles(int mode, const std::vector<uint32_t>* indic
         for (uint32_t& corner : triangle) {
             corner = indices != nullptr ? (*indices)[corner] : corner;
         }
-        if (std::ranges::find(triangle, noVertex) == triangle.end()) {
+        // One with a repeated vertex has no area. Strips are joined by them, and an accessor without data is made of
+        // them.
+        const bool hasArea = triangle[0] != triangle[1] && triangle[1] != triangle[2] && triangle[2] != triangle[0];
+        if (hasArea && std::ranges::find(triangle, noVertex) == triangle.end()) {
             result.insert(result.end(), triangle.begin(), triangle.end());
         }
     }
     if (result.empty()) {
-        report.fail(part, "has no triangle whose indices are all valid");
+        report.fail(part, "has no triangle with three different valid indices");
     }
     return result;
 }
@@ -186,13 +189,13 @@ std::vector<uint32_t> makeThinElements(int mode, const std::vector<uint32_t>* in
     const auto at = [&](uint32_t i) { return indices != nullptr ? (*indices)[i] : i; };
     std::vector<uint32_t> result;
     const auto addLine = [&](uint32_t a, uint32_t b) {
-        if (at(a) != noVertex && at(b) != noVertex) {
+        if (at(a) != noVertex && at(b) != noVertex && at(a) != at(b)) {
             result.insert(result.end(), {at(a), at(b)});
         }
     };
     const uint32_t step = mode == TINYGLTF_MODE_LINE ? 2 : 1;
     for (uint32_t i = 0; mode == TINYGLTF_MODE_POINTS && i < count; ++i) {
-        if (at(i) != noVertex) {
+        if (at(i) != noVertex && (i == 0 || at(i) != at(i - 1))) {
             result.push_back(at(i));
         }
     }

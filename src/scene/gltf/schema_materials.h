@@ -1,6 +1,7 @@
 // The properties of materials in a glTF document, as tables: a part of schema_tables.cpp.
 #pragma once
 
+#include "scene/environment.h"
 #include "scene/gltf/schema_tables.h"
 #include "scene/gltf/schema_values.h"
 
@@ -29,7 +30,7 @@ constexpr std::array metallicRoughness{
     Field{.name = "roughnessFactor", .min = 0, .max = 1},
     Field{.name = "metallicRoughnessTexture", .type = Type::object, .fields = textureInfo, .without = noTexture},
 };
-constexpr std::array emissiveStrength{Field{.name = "emissiveStrength", .min = 0}};
+constexpr std::array emissiveStrength{Field{.name = "emissiveStrength", .min = 0, .max = largestRadiance}};
 constexpr std::array ior{Field{.name = "ior", .min = 0}};
 constexpr std::array specular{
     Field{.name = "specularFactor", .min = 0, .max = 1},

@@ -2,6 +2,7 @@
 // specification, 2021, and of the extensions in knownExtensions.
 #include "scene/gltf/schema_tables.h"
 
+#include "scene/environment.h"
 #include "scene/gltf/schema_materials.h"
 #include "scene/gltf/schema_values.h"
 
@@ -253,7 +254,7 @@ constexpr std::array lightExtras{
 constexpr std::array light{
     Field{.name = "name", .type = Type::text},
     Field{.name = "color", .array = true, .items = 3, .min = 0},
-    Field{.name = "intensity", .min = 0},
+    Field{.name = "intensity", .min = 0, .max = largestRadiance},
     Field{.name = "type", .type = Type::text, .required = true, .words = lightTypes},
     Field{.name = "range", .min = 1e-6, .clamps = false},
     Field{.name = "spot", .type = Type::object, .fields = spot, .vital = true},
