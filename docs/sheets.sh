@@ -27,8 +27,11 @@ for scene in "${scenes[@]}"; do
         picture=$folder/$preset.png
         [[ -f "$picture" ]] ||
             "$reflet" render "builtin:$scene" --size $size --preset "$preset" --frames 32 --quiet -o "$picture"
-        "$reflet" render "builtin:$scene" --size $size --preset "$preset" --quiet "${orbit[@]}" --segment 12 \
-            --warmup 12 --share 2/20 -o "$folder/moving-$preset-###.png"
+        # The second segment of twelve frames; without a history every frame is one of its own.
+        share=(--segment 12 --warmup 12 --share 2/20)
+        [[ "$preset" != direct ]] || share=(--share 24/240)
+        "$reflet" render "builtin:$scene" --size $size --preset "$preset" --quiet "${orbit[@]}" "${share[@]}" \
+            -o "$folder/moving-$preset-###.png"
         rest+=("$picture")
         motion+=("$folder/moving-$preset-$frame.png")
     done

@@ -112,7 +112,7 @@ private:
     std::vector<std::vector<DrawLevel>> levels_;  ///< levels of detail of every mesh
     SkinnedVertices skinned_;
     std::map<size_t, int32_t> skinnedFirst_;                     ///< first vertex of a deformed instance
-    std::map<size_t, std::vector<Aabb>> skinnedBounds_;          ///< bounds per joint of a deformed instance
+    std::map<size_t, std::vector<JointBounds>> skinnedBounds_;   ///< bounds per joint of a deformed instance
     std::map<std::pair<int32_t, bool>, gpu::Texture> textures_;  ///< by image and sRGB
     VkDescriptorSetLayout materialLayout_ = VK_NULL_HANDLE;
     VkDescriptorPool materialPool_ = VK_NULL_HANDLE;

@@ -37,7 +37,7 @@ void GpuScene::pose(const Scene& scene, const ScenePose& now, const ScenePose& b
             const bool deformed = isDeformed(instance);
             draw.objectToWorld = now.objectToWorld[i];
             draw.previousObjectToWorld = before.objectToWorld[i];
-            draw.boundsW = instanceBounds(scene, now, i, deformed ? skinnedBounds_.at(i) : std::vector<Aabb>{});
+            draw.boundsW = instanceBounds(scene, now, i, deformed ? skinnedBounds_.at(i) : std::vector<JointBounds>{});
             draw.firstVertex = deformed ? skinnedFirst_.at(i) : draw.firstVertex;
             draw.turnedOver = instance.skin >= 0 && flipsWinding(now.skins[static_cast<size_t>(instance.skin)]);
         }

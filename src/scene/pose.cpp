@@ -234,17 +234,24 @@ std::vector<vec3> worldPositions(const Scene& scene, const ScenePose& pose, size
     return positions;
 }
 
-std::vector<Aabb> jointBounds(const Mesh& mesh, size_t joints) {
-    std::vector<Aabb> bounds(joints);
+std::vector<JointBounds> jointBounds(const Mesh& mesh, size_t joints) {
+    std::vector<JointBounds> bounds;
+    std::vector<int32_t> places(joints, -1);  // in `bounds`
     for (size_t i = 0; joints > 0 && i < mesh.skin.size(); ++i) {
         for (const JointWeight& moved : mesh.jointsOf(i)) {
-            bounds[moved.joint].add(mesh.positions[i]);
+            int32_t& place = places[moved.joint];
+            if (place < 0) {
+                place = static_cast<int32_t>(bounds.size());
+                bounds.push_back({.joint = moved.joint, .box = {}});
+            }
+            bounds[static_cast<size_t>(place)].box.add(mesh.positions[i]);
         }
     }
     return bounds;
 }
 
-Aabb instanceBounds(const Scene& scene, const ScenePose& pose, size_t instance, const std::vector<Aabb>& byJoint) {
+Aabb instanceBounds(const Scene& scene, const ScenePose& pose, size_t instance,
+                    const std::vector<JointBounds>& byJoint) {
     const Instance& placed = scene.instances[instance];
     const Mesh& mesh = scene.meshes.at(placed.mesh);
     if (mesh.bounds.empty()) {
@@ -256,10 +263,8 @@ Aabb instanceBounds(const Scene& scene, const ScenePose& pose, size_t instance, 
     }
     const std::vector<mat4>& joints = pose.skins[static_cast<size_t>(placed.skin)];
     Aabb result;
-    for (size_t j = 0; j < byJoint.size(); ++j) {
-        if (!byJoint[j].empty()) {
-            result.add(transformed(boundsOf(byJoint[j]), joints[j]));
-        }
+    for (const JointBounds& moved : byJoint) {
+        result.add(transformed(boundsOf(moved.box), joints[moved.joint]));
     }
     return result;
 }

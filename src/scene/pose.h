@@ -55,14 +55,21 @@ bool flipsWinding(const std::vector<mat4>& joints);
 /// The mesh's positions in world space, morphed and skinned.
 std::vector<vec3> worldPositions(const Scene& scene, const ScenePose& pose, size_t instance);
 
-/// Per joint: mesh-space box of the vertices that it influences; empty if none. joints: number of joints of the skin;
-/// 0: no skin.
-std::vector<Aabb> jointBounds(const Mesh& mesh, size_t joints);
+/// Mesh-space box of the vertices that a joint influences.
+struct JointBounds {
+    uint32_t joint = 0;
+    Aabb box;
+};
+
+/// Of the joints that influence any vertex: a skin may have very many more. joints: number of joints of the skin; 0: no
+/// skin.
+std::vector<JointBounds> jointBounds(const Mesh& mesh, size_t joints);
 
 /// World-space bounds of the instance: its mesh's transformed box or, with a skin, the union of its joints' boxes,
 /// which contains every weighted mean; with morph targets enlarged by their weighted boxes. byJoint: from jointBounds,
 /// for instances with a skin.
-Aabb instanceBounds(const Scene& scene, const ScenePose& pose, size_t instance, const std::vector<Aabb>& byJoint);
+Aabb instanceBounds(const Scene& scene, const ScenePose& pose, size_t instance,
+                    const std::vector<JointBounds>& byJoint);
 
 /// Moved with their node, if it is animated, and with animated lens or light; otherwise unchanged. What the view has
 /// set otherwise than the scene is not animated. A lamp of a hidden node is dark.
