@@ -159,6 +159,8 @@ For artefacts known from other renderers, see [hard-cases.md](hard-cases.md).
   differences are not significant. FLIP includes that noise, too.
 - Each image is frame 32 of a static view, when temporal accumulation has converged.
 TEXT
+    echo
+    sed -n '/^## What one sees$/,/^## All bounces$/p' docs/accuracy.md | sed '$d' # written by hand, after docs/sheets.sh
     section "All bounces" out/accuracy --preset direct,fast,balanced,quality,hybrid
     echo
     if [[ ${1:-} == presets ]]; then
