@@ -127,7 +127,8 @@ public:
         bvh.nodes.emplace_back();
         bvh.triangles.reserve(items_.size());
         // The root always has two children.
-        const auto [left, right] = items_.size() < 2 ? std::pair(Items(items_), Items(items_)) : cut(items_, 0).value();
+        const Items all = distinct(items_);
+        const auto [left, right] = all.size() < 2 ? std::pair(all, all) : cut(all, 0).value();
         fill(bvh, 0, left, right, 1);
         return bvh;
     }
@@ -143,6 +144,26 @@ private:
                 return std::pair(a.center()[axis], a.triangle) < std::pair(b.center()[axis], b.triangle);
             });
         return {items.first(half), items.subspan(half)};
+    }
+
+    // Of very many triangles in one place, which nothing can part, the first of those with the same corners: a ray
+    // would have to try them all.
+    [[nodiscard]] Items distinct(Items items) const {
+        const auto isElsewhere = [&](const Item& item) {
+            return item.box.min != items.front().box.min || item.box.max != items.front().box.max;
+        };
+        if (items.size() <= bvhMaxLeaf || std::ranges::any_of(items, isElsewhere)) {
+            return items;
+        }
+        const auto corners = [&](const Item& item) {
+            const SceneTriangle& t = triangles_[item.triangle];
+            return std::array{t.a.x, t.a.y, t.a.z, t.b.x, t.b.y, t.b.z, t.c.x, t.c.y, t.c.z};
+        };
+        std::ranges::sort(items, [&](const Item& a, const Item& b) {
+            return std::pair(corners(a), a.triangle) < std::pair(corners(b), b.triangle);
+        });
+        const auto equal = [&](const Item& a, const Item& b) { return corners(a) == corners(b); };
+        return items.first(static_cast<size_t>(std::unique(items.begin(), items.end(), equal) - items.begin()));
     }
 
     // nullopt: a leaf is cheaper. `depth` is that of the node that would hold the two parts.
@@ -195,6 +216,7 @@ private:
     }
 
     uint32_t child(Bvh& bvh, Items items, uint32_t depth) {
+        items = distinct(items);
         const auto parts = items.empty() ? std::nullopt : cut(items, depth);
         if (!parts) {
             return leaf(bvh, items);

@@ -26,7 +26,8 @@ struct Bvh {
     std::vector<SceneTriangle> triangles;  ///< in leaf order; never empty: an empty scene has one degenerate triangle
 };
 
-/// Deterministic. maxDepth: maximum number of nodes from the root to a leaf.
+/// Deterministic. Of many equal triangles in one place it has one. maxDepth: maximum number of nodes from the root to a
+/// leaf.
 Bvh buildBvh(const std::vector<SceneTriangle>& triangles, uint32_t maxDepth = bvhMaxDepth);
 
 /// Merges two hierarchies, each with at most bvhMaxDepth - 1 nodes to a leaf, under one root: the static part need not

@@ -134,6 +134,19 @@ TEST(Bvh, IsValidForZeroAndForOneTriangle) {
     EXPECT_EQ(one.triangles[one.nodes[0].left & bvhFirstMask].firstIndex, 7U);
 }
 
+// A ray would have to try all of them: a file of 4 MB kept the renderer busy for minutes.
+TEST(Bvh, HasOfManyEqualTrianglesInOnePlaceTheFirst) {
+    std::vector<SceneTriangle> triangles;
+    for (uint32_t i = 0; i < 1000; ++i) {
+        triangles.push_back(triangleAt(vec3(1, 2, 3), i % 3 == 0 ? 1.0F : 2.0F, i));
+    }
+    triangles.push_back(triangleAt(vec3(9, 2, 3), 1.0F, 1000));
+    const Bvh bvh = buildBvh(triangles);
+    EXPECT_TRUE(Walk(bvh).everyTriangleIsInOneLeaf());
+    EXPECT_EQ(bvh.triangles.size(), 3U);
+    EXPECT_TRUE(std::ranges::any_of(bvh.triangles, [](const SceneTriangle& t) { return t.b == vec3(2, 2, 3); }));
+}
+
 TEST(Bvh, LeavesOutTrianglesThatAreNotFinite) {
     Mesh mesh = builtin::box(vec3(1));
     const size_t whole = mesh.indices.size() / 3;
