@@ -56,6 +56,13 @@ public:
         builder_.document["accessors"][accessors_["POSITION"].get<size_t>()]["count"] = count;
     }
 
+    /// One that no accessor has.
+    void addUnused(int8_t components) {
+        const std::vector<float> value(static_cast<size_t>(components), 1.0F);
+        const int id = soup_.AddAttribute(draco::GeometryAttribute::GENERIC, components, draco::DT_FLOAT32);
+        soup_.SetAttributeValuesForFace(id, draco::FaceIndex(0), value.data(), value.data(), value.data());
+    }
+
     Mesh load(int method) {
         auto metadata = std::make_unique<draco::GeometryMetadata>();
         metadata->AddEntryString("made by", "a test");
@@ -110,6 +117,24 @@ TEST(GltfDraco, AnAttributeOfTruthValuesIsAnError) {
     DracoTriangle triangle;
     triangle.add<uint8_t>("COLOR_0", draco::DT_BOOL, ubyteType, false, {212, 1, 0, 1});
     EXPECT_THROW(triangle.load(draco::MESH_SEQUENTIAL_ENCODING), Error);
+}
+
+// Two megabytes of it could claim four gigabytes of values, also in attributes that nothing uses.
+TEST(GltfDraco, AttributesAreOfSixteenComponentsAtMost) {
+    for (const int method : {draco::MESH_SEQUENTIAL_ENCODING, draco::MESH_EDGEBREAKER_ENCODING}) {
+        DracoTriangle wide;
+        wide.addUnused(16);
+        EXPECT_EQ(wide.load(method).indices.size(), 3U);
+        DracoTriangle wider;
+        wider.addUnused(17);
+        try {
+            wider.load(method);
+            ADD_FAILURE() << method;
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find("has an attribute of 17 components"), std::string::npos)
+                << error.what();
+        }
+    }
 }
 
 TEST(GltfDraco, PositionsThatAreNotCompressedAreAsManyAsTheDataHasVertices) {

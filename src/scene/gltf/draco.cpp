@@ -3,11 +3,13 @@
 // 3D Data Compression Bitstream Specification", version 2.2, 2018.
 #include "scene/gltf/draco.h"
 
-#include <draco/compression/decode.h>
-#include <draco/compression/point_cloud/point_cloud_decoder.h>
+#include <draco/compression/config/decoder_options.h>
+#include <draco/compression/mesh/mesh_edgebreaker_decoder.h>
+#include <draco/compression/mesh/mesh_sequential_decoder.h>
 #include <draco/metadata/metadata_decoder.h>
 
 #include <algorithm>
+#include <functional>
 #include <span>
 
 namespace reflet {
@@ -19,6 +21,8 @@ constexpr uint8_t methodEdgebreaker = 1;
 constexpr uint16_t flagMetadata = 0x8000;
 constexpr uint64_t maxFacesPerByte = 4096;  // far beyond real meshes
 constexpr uint64_t decoderBytesPerFace = 128;
+constexpr int mostComponents = 16;  // of an attribute; glTF's have four at most
+constexpr int bytesOfInteger = 4;   // that each component is decoded to before it has its own type
 
 /// LEB128, as Draco writes counts.
 bool readVarint(draco::DecoderBuffer& buffer, uint64_t& value) {
@@ -36,9 +40,47 @@ bool readVarint(draco::DecoderBuffer& buffer, uint64_t& value) {
     return false;
 }
 
-/// The numbers of faces and vertices according to the headers. False if a header is broken.
-bool readClaims(draco::DecoderBuffer buffer, uint64_t& faces, uint64_t& vertices, const std::string& part,
-                const GltfReport& report) {
+/// Draco's decoder of meshes of one kind. `check` is called with the mesh when all its attributes are described, and
+/// before memory is taken for their values; what it throws leaves decode().
+template <class Decoder>
+class CheckedDecoder : public Decoder {
+public:
+    explicit CheckedDecoder(std::function<void(const draco::PointCloud&)> check) : check_(std::move(check)) {}
+
+protected:
+    bool DecodeAllAttributes() override {
+        check_(*this->point_cloud());
+        return Decoder::DecodeAllAttributes();
+    }
+
+private:
+    std::function<void(const draco::PointCloud&)> check_;
+};
+
+/// The memory that the values of all attributes take. Throws Error if one is wider than glTF could need.
+uint64_t bytesOfAttributes(const draco::PointCloud& mesh, const std::string& part, const GltfReport& report) {
+    uint64_t bytes = 0;
+    for (int i = 0; i < mesh.num_attributes(); ++i) {
+        const draco::PointAttribute& attribute = *mesh.attribute(i);
+        const int components = attribute.num_components();
+        if (components > mostComponents) {
+            report.fail(part, "its Draco data has an attribute of {} components", components);
+        }
+        bytes += static_cast<uint64_t>(components) *
+                 static_cast<uint64_t>(std::max(draco::DataTypeLength(attribute.data_type()), 0) + bytesOfInteger);
+    }
+    return bytes * mesh.num_points();
+}
+
+/// Of the headers.
+struct Claims {
+    bool edgebreaker = false;
+    uint64_t faces = 0;
+    uint64_t vertices = 0;
+};
+
+/// False if a header is broken.
+bool readClaims(draco::DecoderBuffer buffer, Claims& claims, const std::string& part, const GltfReport& report) {
     draco::DracoHeader header{};
     if (!draco::PointCloudDecoder::DecodeHeader(&buffer, &header).ok()) {
         return false;
@@ -56,31 +98,38 @@ bool readClaims(draco::DecoderBuffer buffer, uint64_t& faces, uint64_t& vertices
             return false;
         }
     }
-    if (header.encoder_method == methodEdgebreaker) {
+    claims.edgebreaker = header.encoder_method == methodEdgebreaker;
+    if (claims.edgebreaker) {
         uint8_t traversal = 0;
-        return buffer.Decode(&traversal) && readVarint(buffer, vertices) && readVarint(buffer, faces);
+        return buffer.Decode(&traversal) && readVarint(buffer, claims.vertices) && readVarint(buffer, claims.faces);
     }
-    return readVarint(buffer, faces) && readVarint(buffer, vertices);
+    return readVarint(buffer, claims.faces) && readVarint(buffer, claims.vertices);
 }
 
 std::unique_ptr<draco::Mesh> decodeMesh(std::span<const uint8_t> bytes, const std::string& part, GltfReport& report) {
     draco::DecoderBuffer buffer;
     buffer.Init(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    uint64_t faces = 0;
-    uint64_t vertices = 0;
-    if (!readClaims(buffer, faces, vertices, part, report)) {
+    Claims claims;
+    if (!readClaims(buffer, claims, part, report)) {
         report.fail(part, "its Draco header is broken");
     }
-    if (faces > maxFacesPerByte * bytes.size() || vertices > 3 * faces) {
-        report.fail(part, "claims {} triangles and {} vertices in only {} bytes of Draco data", faces, vertices,
-                    bytes.size());
+    if (claims.faces > maxFacesPerByte * bytes.size() || claims.vertices > 3 * claims.faces) {
+        report.fail(part, "claims {} triangles and {} vertices in only {} bytes of Draco data", claims.faces,
+                    claims.vertices, bytes.size());
     }
-    report.charge(part, faces * decoderBytesPerFace + bytes.size());
-    auto decoded = draco::Decoder().DecodeMeshFromBuffer(&buffer);
+    report.charge(part, claims.faces * decoderBytesPerFace + bytes.size());
+    const auto check = [&](const draco::PointCloud& cloud) {
+        report.charge(part, bytesOfAttributes(cloud, part, report));
+    };
+    auto mesh = std::make_unique<draco::Mesh>();
+    const draco::DecoderOptions options;
+    const draco::Status decoded =
+        claims.edgebreaker ? CheckedDecoder<draco::MeshEdgebreakerDecoder>(check).Decode(options, &buffer, mesh.get())
+                           : CheckedDecoder<draco::MeshSequentialDecoder>(check).Decode(options, &buffer, mesh.get());
     if (!decoded.ok()) {
-        report.fail(part, "its Draco data is broken: {}", decoded.status().error_msg_string());
+        report.fail(part, "its Draco data is broken: {}", decoded.error_msg_string());
     }
-    return std::move(decoded).value();
+    return mesh;
 }
 
 /// Divisor of a normalized integer.
