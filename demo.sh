@@ -17,12 +17,12 @@ step "1 of 3: packages that the build needs (apt; about a minute if they are mis
 ./setup.sh
 step "2 of 3: build"
 # Ninja's lines, and every 20 s how long the rest takes by the C++ files so far, which are most of the work.
-showBuild() {  # files
+showBuild() {  # C++ files; 0: unknown
     local line files=$1 made=0 start=$SECONDS next=$((SECONDS + 20))
     while IFS= read -r line; do
         printf '%s\n' "$line"
         [[ "$line" != *"Building CXX object"* ]] || made=$((made + 1))
-        if ((SECONDS >= next && made > 0)); then
+        if ((files > made && made > 0 && SECONDS >= next)); then
             echo "demo.sh: $made of $files C++ files in $((SECONDS - start)) s: about $(((SECONDS - start) * (files - made) / made)) s left"
             next=$((SECONDS + 20))
         fi
@@ -33,7 +33,10 @@ if [[ ! -f build/build.ninja ]]; then
     mkdir -p build
     cmake --preset release -DREFLET_TESTS=OFF >build/configure.log 2>&1 || { cat build/configure.log >&2; exit 1; }
 fi
-files=$(ninja -C build -n reflet_program | grep -c "Building CXX object" || true)
+files=0
+if [[ ! -f build/bin/reflet ]]; then
+    files=$(ninja -C build -t commands reflet_program | grep -cE -- ' -c [^ ]+\.(cxx|cpp)$' || true)
+fi
 cmake --build --preset release --parallel "$cores" --target reflet_program | showBuild "$files"
 
 step "3 of 3: pictures"
