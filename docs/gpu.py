@@ -6,7 +6,7 @@ Hand-written text is under the heading "On a GPU" of docs/performance-notes.md.
 import os
 import sys
 
-from performance import ROOT, load, ms, read_notes, short, submitted
+from performance import ROOT, Targets, group_ms, load, ms, read_notes, short, submitted
 
 PAGE = os.path.join(ROOT, "docs", "gpu.md")
 PRESETS = ("fast", "balanced", "quality", "hybrid")
@@ -40,6 +40,24 @@ def passes(runs, most=14):
     return table("pass", rows, lambda one: ms(one["median"]) if one else "")
 
 
+def targets(frames):
+    """Effects of `balanced`, each in its slowest scene, against what was aimed at."""
+    own = [run for run in frames["runs"] if run["variant"] == "balanced"]
+
+    def shadow_ms(run):
+        return sum(p["median"] for name, p in run["steady"]["passes"].items()
+                   if ("shadow" in name or "visibility" in name) and not p["raster"])
+
+    result = Targets()
+    for what, limit, time in (("denoised specular light", 0.5, lambda run: group_ms(run, "specular")),
+                              ("denoised diffuse light", 0.5, lambda run: group_ms(run, "diffuse")),
+                              ("denoised PCSS", 0.2, shadow_ms)):
+        worst = max(own, key=time)
+        result.add(f"{what} of `balanced`, 1920x1080", f"{limit} ms", f"{time(worst):.3f} ms (`{short(worst['scene'])}`)",
+                   time(worst) <= limit)
+    return ["## Targets", "Met:", result.table(missed=False), "Missed:", result.table(missed=True)]
+
+
 def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else os.path.join(ROOT, "out", "performance")
     frames, sizes, errors = (load(folder, name) for name in ("gpu", "gpu-sizes", "gpu-errors"))
@@ -67,6 +85,7 @@ def main():
         parts += ["## Errors", "HDR-FLIP of frame 32 to the path-traced reference, 320x180. [accuracy.md](accuracy.md) has all "
                   "measures.",
                   table("scene", by_scene(errors["runs"]), lambda run: f"{run['steady']['error']['flip']:.4f}")]
+    parts += targets(frames)
     with open(PAGE, "w", encoding="utf-8") as file:
         file.write("\n\n".join(part for part in parts if part) + "\n")
 

@@ -16,7 +16,7 @@ PAGE = os.path.join(ROOT, "docs", "performance.md")
 NOTES = os.path.join(ROOT, "docs", "performance-notes.md")
 ACCURACY = os.path.join(ROOT, "docs", "accuracy.md")
 PRESETS = os.path.join(ROOT, "src", "renderer", "presets")
-PICTURE = os.path.join("pictures", "performance.svg")
+PRESET_SCENES = ("cave", "street")  # of the measurements presets-SCENE and games202-SCENE
 
 # Milliseconds of the GAMES202 assignment's original program on such a machine, at 1280x720, and by the number of pixels at
 # 640x360; see methods/games202.md.
@@ -65,7 +65,7 @@ def ratio(pair, state="steady"):
 
 
 class Targets:
-    """Rows of the tables at the end of the page, by whether the target was missed (not measured: it was not)."""
+    """Rows of a table of targets, by whether the target was missed (not measured: it was not)."""
 
     def __init__(self):
         self.rows = {False: [], True: []}
@@ -86,8 +86,8 @@ AGAINST_GAMES202 = (("balanced", 40, 8), ("fast", 60, 12))
 
 
 def against_games202(folder, targets):
-    for name, scene in (("games202-cube1", "cube1"), ("games202", "cave")):
-        data = load(folder, name)
+    for scene in ("cube1", *PRESET_SCENES):
+        data = load(folder, "games202-" + scene)
         for index, (preset, steady, first) in enumerate(AGAINST_GAMES202):
             for what, state, limit in (("whole frame, steady state", "steady", steady), ("first frame", "first", first)):
                 what = f"`{preset}`, `{scene}`, {what}, against `games202` with 32 rays"
@@ -134,9 +134,8 @@ def pixels_and_triangles(folder, targets):
     data = load(folder, "sizes")
     if data is None:
         targets.missing("cost per pixel, 640x360 to 3840x2160", "within 15 %")
-    else:
-        scaling = data["scaling"][0]
-        targets.add("cost per pixel, 640x360 to 3840x2160", "within 15 %",
+    for scaling in data["scaling"] if data else ():
+        targets.add(f"cost per pixel, 640x360 to 3840x2160, `{short(scaling['scene'])}`", "within 15 %",
                     f"{', '.join(f'{ns:.0f}' for ns in scaling['ns_per_pixel'])} ns; {100 * scaling['spread']:.0f} %",
                     scaling["spread"] <= 0.15)
     few, many = load(folder, "triangles-100"), load(folder, "triangles-1000000")
@@ -146,29 +145,6 @@ def pixels_and_triangles(folder, targets):
         return
     a, b = (group_ms(data["runs"][0], "effects") for data in (few, many))
     targets.add(what, "within 5 %", f"{ms(a)} and {ms(b)} ms; {100 * (b / a - 1):+.1f} %", abs(b / a - 1) <= 0.05)
-
-
-def gpu(folder, targets):
-    data = load(folder, "gpu")
-    limits = (("specular", 0.5), ("diffuse", 0.5))
-    if data is None:
-        for group, limit in limits:
-            targets.missing(f"denoised {group} light on a GPU, 1920x1080", f"{limit} ms")
-        targets.missing("denoised PCSS on a GPU, 1920x1080", "0.2 ms")
-        return
-    own = [run for run in data["runs"] if run["variant"] == "balanced"]
-    for group, limit in limits:
-        worst = max(own, key=lambda run: group_ms(run, group))
-        value = group_ms(worst, group)
-        targets.add(f"denoised {group} light on {data['device']}, 1920x1080", f"{limit} ms",
-                    f"{value:.3f} ms (`{short(worst['scene'])}`)", value <= limit)
-
-    def shadow_ms(run):
-        return sum(p["median"] for name, p in run["steady"]["passes"].items()
-                   if ("shadow" in name or "visibility" in name) and not p["raster"])
-    worst = max(own, key=shadow_ms)
-    targets.add(f"denoised PCSS on {data['device']}, 1920x1080", "0.2 ms",
-                f"{shadow_ms(worst):.3f} ms (`{short(worst['scene'])}`)", shadow_ms(worst) <= 0.2)
 
 
 def cost_and_error():
@@ -213,9 +189,9 @@ def overview(folder):
             "those of frame 32. Values by scene are in [accuracy.md](accuracy.md).\n\n" + table)
     if data := load(folder, "sizes"):
         runs = data["runs"]
-        text += (f"\n\nLarger images, from submission to fence, `{runs[0]['variant']}` on `{short(runs[0]['scene'])}`:\n\n"
-                 "| size | ms per frame |\n|---|--:|\n"
-                 + "\n".join(f"| {r['size'][0]}x{r['size'][1]} | {ms(submitted(r))} |" for r in runs))
+        text += (f"\n\nLarger images, from submission to fence, `{runs[0]['variant']}`:\n\n"
+                 "| scene | size | ms per frame |\n|---|---|--:|\n"
+                 + "\n".join(f"| {short(r['scene'])} | {r['size'][0]}x{r['size'][1]} | {ms(submitted(r))} |" for r in runs))
     return text
 
 
@@ -266,26 +242,43 @@ def commands(folder):
 
 # Measurements, heading, and what the section shows.
 SECTIONS = (
-    (("games202", "games202-cube1"), "Whole frames against the GAMES202 method",
+    (("games202-cube1", "games202-cave", "games202-street"), "Whole frames against the GAMES202 method",
      "Diffuse light of Lambert surfaces, against the reference with all bounces. The preset `games202` is the "
      "method of [the GAMES202 assignment](methods/games202.md) with 32 rays."),
     (("mirror",), "Reflections", "A mirror that fills the screen, without sky; errors are those of the layer "
      "`indirect_specular` against the reference with all bounces."),
     (("shadow",), "Soft shadows", "Direct light only: PCSS with its denoiser, against hard shadows."),
-    (("sizes",), "Cost per pixel", "One scene at four sizes."),
+    (("sizes",), "Cost per pixel", "Two scenes at four sizes."),
     (("triangles-100", "triangles-1000000"), "Triangles", "The same room with 100 and with 1,000,000 triangles."),
     (("rest",), "At rest", "A static camera, frame 32, against the same settings with 256 rays per pixel, averaged over "
      "frames and not denoised."),
 )
 
 
+def error_against_time(folder, notes):
+    """Table and plot of all presets for each scene of PRESET_SCENES; copies the plots to docs/pictures."""
+    parts = []
+    for scene in PRESET_SCENES:
+        if not (data := load(folder, "presets-" + scene)):
+            continue
+        if not parts:
+            size = data["runs"][0]["size"]
+            parts.append(f"{data['device']} ({data['driver']}), {size[0]}x{size[1]}; error of frame 32 against the reference "
+                         "with all bounces.")
+        picture = f"pictures/performance-{scene}.svg"
+        plot = os.path.join(folder, f"presets-{scene}.svg")
+        if os.path.exists(plot):
+            shutil.copyfile(plot, os.path.join(ROOT, "docs", picture))
+        parts.append(f"![Error against time, {scene}]({picture})\n\n{frames_table(data)}")
+    return [section("Error against time", "\n\n".join(parts), notes)] if parts else []
+
+
 def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else os.path.join(ROOT, "out", "performance")
     notes = read_notes()
     targets = Targets()
-    for add in (against_games202, mirror, shadow, pixels_and_triangles, gpu):
+    for add in (against_games202, mirror, shadow, pixels_and_triangles):
         add(folder, targets)
-    presets = load(folder, "presets")
     parts = ["# Performance", "What a frame costs and how far it is from the reference.",
              section("Cost and error of the presets", overview(folder), notes),
              "## Measurements\n\nMade by `docs/performance.sh`; the hand-written text is in `performance-notes.md`. In all tables "
@@ -293,28 +286,18 @@ def main():
              "device's timestamps. On llvmpipe the timestamps miss clears, copies and the start of draws, so use *submitted* there. "
              "*First* is a frame without history, *steady* the state after a warm-up. `reflet bench --help` explains the other "
              "columns; see also [bench.md](bench.md)."]
-    if presets:
-        svg = os.path.join(folder, "presets.svg")
-        if os.path.exists(svg):
-            shutil.copyfile(svg, os.path.join(ROOT, "docs", PICTURE))
-        parts.append(section("Error against time", f"{presets['device']} ({presets['driver']}), "
-                             f"{presets['runs'][0]['size'][0]}x{presets['runs'][0]['size'][1]}; error of frame "
-                             "32 against the reference with all bounces.\n\n"
-                             f"![Error against time]({PICTURE})\n\n{frames_table(presets)}", notes))
+    parts += error_against_time(folder, notes)
     for names, heading, text in SECTIONS:
         data = [d for d in (load(folder, name) for name in names) if d]
         if data:
             parts.append(section(heading, "\n\n".join([text] + [frames_table(d) for d in data]), notes))
-    for name, heading in (("sizes", "Time per pass against memory bandwidth"),
-                          ("gpu", "Time per pass against memory bandwidth on a GPU")):
-        data = load(folder, name)
-        if data:
-            run = next((r for r in data["runs"] if r["size"] in ([1280, 720], [1920, 1080])), data["runs"][0])
-            text = "Bandwidth bound: the time to move all bound images and buffers once at the measured bandwidth. A pass "\
-                   "that reads only a part of them can be faster; one that reads them many times is far above it.\n\n"
-            parts.append(section(heading, text + roofline(run, data["bandwidth_bytes_per_s"]), notes))
-    if notes.get("What was found"):
-        parts.append(section("What was found", "", notes))
+    if data := load(folder, "sizes"):
+        runs = [run for run in data["runs"] if run["size"] == [1280, 720]]
+        text = "Bandwidth bound: the time to move all bound images and buffers once at the measured bandwidth. A pass "\
+               "that reads only a part of them can be faster; one that reads them many times is far above it."
+        parts.append(section("Time per pass against memory bandwidth",
+                             "\n\n".join([text] + [roofline(run, data["bandwidth_bytes_per_s"]) for run in runs]), notes))
+    parts.append(section("Optimisations on llvmpipe", "", notes))
     parts.append(section("Made by", commands(folder), notes))
     parts.append(section("Targets that were met or not measured", targets.table(missed=False), notes))
     parts.append(section("Targets that were missed", targets.table(missed=True), notes))

@@ -994,8 +994,9 @@ typedef struct RefletRayAnswer {
      */
     float confidence;
     /**
-     * Hit distance in metres, 0 or more. Negative: the ray hits nothing and gets the environment alone for all of
-     * `rest`, not scaled by `environment.occluded_weight`, which applies to rays that pass behind a surface.
+     * Hit distance in metres, 0 or more; 10000 for light from infinitely far away. Negative: the ray hits nothing and
+     * gets the environment alone for all of `rest`, not scaled by `environment.occluded_weight`, which applies to rays
+     * that pass behind a surface; radiance and confidence are not read.
      */
     float distance;
     uint32_t reserved[3]; /**< 0 */

@@ -1,4 +1,4 @@
-// Luminance of linear Rec. 709 colours.
+// Luminance of linear Rec. 709 colours. C++ too, see tone_curves.glsl.
 #ifndef REFLET_LUMINANCE_GLSL
 #define REFLET_LUMINANCE_GLSL
 

@@ -228,6 +228,7 @@ private:
         settings.specular.maxRoughness = 0.4F;
         settings.specular.roughFallback = RoughFallback::mips;
         settings.denoise.enabled = 1;
+        settings.motionBlur.enabled = 1;
         return settings;
     }
 

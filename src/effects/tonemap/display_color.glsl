@@ -1,5 +1,6 @@
-// Tone mapping of one pixel: exposure, curve, display encoding. Compiled as GLSL by tonemap.comp and as C++ by
-// tone_map_image.cpp, so that CPU and GPU results match.
+// Tone mapping of one pixel: exposure, curve, display encoding. Compiled as GLSL by tonemap.comp,
+// tonemap_auto.comp and display.glsl (the library's displays), and as C++ by tone_map_image.cpp (references and
+// comparisons), so that CPU and GPU results match.
 #ifndef REFLET_DISPLAY_COLOR_GLSL
 #define REFLET_DISPLAY_COLOR_GLSL
 
