@@ -14,13 +14,13 @@ LINK = re.compile(r"(!?\[[^\]]*\]\()([^)\s#]+)((?:#[^)\s]*)?\))")
 FENCE = re.compile(r"^(```[\s\S]*?^```|(?: {4}[^\n]*\n)+)|`[^`\n]+`", re.MULTILINE)
 NAVIGATION = [
     ("Start", ["README.md", "docs/features.md", "docs/tutorial.md", "docs/README.md"]),
-    ("Manual", ["docs/rendering.md", "docs/window.md", "docs/sequences.md", "docs/many-machines.md", "docs/reference.md",
+    ("Manual", ["docs/rendering.md", "docs/window.md", "docs/sequences.md", "docs/films.md", "docs/many-machines.md", "docs/reference.md",
                 "docs/report.md", "docs/bench.md", "docs/settings.md", "docs/files.md", "docs/view-files.md", "docs/datasets.md", "docs/python.md"]),
     ("Library", ["docs/library.md", "docs/upgrading.md", "docs/conventions.md", "docs/architecture.md"]),
     ("Methods", ["docs/methods/README.md"]),
     ("Measured", ["docs/accuracy.md", "docs/hard-cases.md", "docs/motion.md", "docs/performance.md", "docs/gpu.md",
                   "docs/gpu-model.md", "docs/devices.md"]),
-    ("Project", ["CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "docs/site.md"]),
+    ("Project", ["CONTRIBUTING.md", "CHANGELOG.md", "SECURITY.md", "docs/fuzzing.md", "docs/site.md"]),
 ]
 
 
