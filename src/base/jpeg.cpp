@@ -28,7 +28,11 @@ public:
             errors->manager.format_message(jpeg, errors->text.data());
             std::longjmp(errors->back, 1);
         };
-        errors_.manager.output_message = [](j_common_ptr) {};  // warnings
+        errors_.manager.emit_message = [](j_common_ptr jpeg, int level) {
+            auto* errors = reinterpret_cast<Errors*>(jpeg->err);
+            errors->noMoreBytes |= level < 0 && errors->manager.msg_code == JWRN_JPEG_EOF;
+            errors->rowsMissing |= level < 0 && errors->manager.msg_code == JWRN_HIT_MARKER;
+        };
         progress_.progress_monitor = [](j_common_ptr jpeg) {
             constexpr int mostScans = 32;  // writers of progressive images make about ten
             if (reinterpret_cast<j_decompress_ptr>(jpeg)->input_scan_number > mostScans) {
@@ -55,6 +59,10 @@ public:
         if (!tryDecode(pixels.data())) {
             failWithReason();
         }
+        // Either alone is harmless: an absent end of image, and a strip that was damaged.
+        if (errors_.noMoreBytes && errors_.rowsMissing) {
+            fail("its data end before the last row");
+        }
     }
 
     [[nodiscard]] const jpeg_decompress_struct& state() const { return jpeg_; }
@@ -66,6 +74,8 @@ private:
         std::jmp_buf back{};
         std::array<char, JMSG_LENGTH_MAX> text{};
         bool tooManyScans = false;
+        bool noMoreBytes = false;
+        bool rowsMissing = false;
     };
 
     // NOLINTBEGIN(cert-err52-cpp): the library has no other way

@@ -94,10 +94,8 @@ json parseJsonFile(const std::filesystem::path& path) {
         // By reference: the parser copies its callback.
         DuplicateKeys duplicateKeys(path.string());
         return json::parse(text, std::ref(duplicateKeys));
-    } catch (const json::parse_error& error) {
-        fail("{}:{}: {}", path.string(), lineAndColumn(text, error.byte), jsonReason(error));
     } catch (const json::exception& error) {
-        fail("{}: {}", path.string(), jsonReason(error));
+        fail("{}:{}: {}", path.string(), lineAndColumn(text, jsonErrorByte(error, text)), jsonReason(error));
     }
 }
 

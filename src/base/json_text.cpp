@@ -145,6 +145,27 @@ std::string jsonExcess(std::string_view text, const JsonLimits& limits) {
     return "";
 }
 
+size_t jsonErrorByte(const nlohmann::json::exception& error, std::string_view text) {
+    if (const auto* parse = dynamic_cast<const nlohmann::json::parse_error*>(&error); parse != nullptr) {
+        return parse->byte;
+    }
+    std::string_view number = error.what();  // "... number overflow parsing '1e999'"
+    number.remove_prefix(number.find('\'') + 1);
+    number = number.substr(0, number.find('\''));
+    bool inText = false;
+    for (size_t i = 0; i < text.size() && !number.empty(); ++i) {
+        if (!inText && text.substr(i).starts_with(number)) {
+            return i + 1;
+        }
+        if (inText && text[i] == '\\') {
+            ++i;
+        } else if (text[i] == '"') {
+            inText = !inText;
+        }
+    }
+    return 0;
+}
+
 nlohmann::json parseJson(std::string_view text, const JsonLimits& limits) {
     refuseExcess(text, limits);
     return nlohmann::json::parse(text);

@@ -26,7 +26,11 @@ uint64_t jsonValues(std::string_view text);
 /// Which limit the text exceeds, as the end of an error message; empty: none. All parsers below ask it first.
 std::string jsonExcess(std::string_view text, const JsonLimits& limits = {});
 
-/// Throws nlohmann::json::parse_error, or Error if the text exceeds a limit.
+/// The byte of a text, counted from 1, at which the parser stopped with this error: of a number beyond the range of
+/// doubles the first, which nlohmann-json does not tell. 0: unknown.
+size_t jsonErrorByte(const nlohmann::json::exception& error, std::string_view text);
+
+/// Throws nlohmann::json::exception, or Error if the text exceeds a limit.
 nlohmann::json parseJson(std::string_view text, const JsonLimits& limits = {});
 /// The same; a value that is_discarded() where the text is not JSON.
 nlohmann::json parseJsonIfValid(std::string_view text);

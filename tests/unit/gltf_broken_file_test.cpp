@@ -46,6 +46,8 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(BrokenBytes{"Empty", "", "is empty"},
                       BrokenBytes{"DocumentIsAnArray", "[]", "JSON: is an array, not an object"},
                       BrokenBytes{"NotJson", "hello\n<world>", "JSON: is not valid JSON at line 1, byte 1 of 13"},
+                      BrokenBytes{"HugeNumber", "{\"asset\":{},\n\"x\":-1e999}",
+                                  "JSON: has a number beyond the range of doubles at line 2, byte 18 of 24"},
                       BrokenBytes{"CutOff", R"({"asset":)", "JSON: is not valid JSON at line 1"},
                       BrokenBytes{"NanLiteral", R"({"asset":{"version":NaN}})", "JSON: is not valid JSON"},
                       BrokenBytes{"NumberOverflow", R"({"asset":{"version":1e999}})", "JSON: "},

@@ -189,6 +189,15 @@ TEST(BrokenImage, AJpegHasNotMoreScansThanWritersMake) {  // each makes the deco
     EXPECT_EQ(textureComplaint(withMoreScans(40)), "images[0]: is a broken image: it has too many scans");
 }
 
+TEST(BrokenImage, AJpegWhoseRowsAreMissingIsNotDecoded) {  // the decoder would make them grey, with a warning
+    for (const std::string& whole : {jpegOf(64, 64), libraryJpeg(64)}) {
+        EXPECT_EQ(complaintOf("a.jpg", whole.substr(0, whole.size() - 2)), "") << "without an end of image";
+        const std::string half = whole.substr(0, whole.rfind("\xFF\xDA") + 20);
+        EXPECT_EQ(complaintOf("a.jpg", half), "cannot be read as an image: its data end before the last row");
+        EXPECT_EQ(textureComplaint(half), "images[0]: is a broken image: its data end before the last row");
+    }
+}
+
 TEST(BrokenImage, AJpegOfFourInksIsRgb) {
     const auto file = testFolder() / "a.jpg";
     writeFileAtomically(file, libraryJpeg(32, 4));

@@ -43,12 +43,13 @@ nlohmann::json parseJson(Bytes bytes, GltfReport& report) {
     report.charge("JSON", jsonBytesPerValue * jsonValues(text));
     try {
         return reflet::parseJson(text, limits);
-    } catch (const nlohmann::json::parse_error& error) {
-        const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min<size_t>(error.byte, text.size()));
-        report.fail("JSON", "is not valid JSON at line {}, byte {} of {}", 1 + std::count(text.begin(), end, '\n'),
-                    error.byte, text.size());
-    } catch (const nlohmann::json::exception& error) {  // a number beyond the range of doubles
-        report.fail("JSON", "{}", error.what());
+    } catch (const nlohmann::json::exception& error) {
+        const size_t byte = jsonErrorByte(error, text);
+        const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte, text.size()));
+        const bool invalid = dynamic_cast<const nlohmann::json::parse_error*>(&error) != nullptr;
+        report.fail("JSON", "{} at line {}, byte {} of {}",
+                    invalid ? "is not valid JSON" : "has a number beyond the range of doubles",
+                    1 + std::count(text.begin(), end, '\n'), byte, text.size());
     }
 }
 
