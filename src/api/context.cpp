@@ -5,7 +5,6 @@
 #include "api/queues.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <iterator>
 #include <string_view>

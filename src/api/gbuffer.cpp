@@ -3,8 +3,6 @@
 #include "api/camera.h"
 #include "api/frame.h"
 
-#include <utility>
-
 namespace reflet::api {
 
 namespace {

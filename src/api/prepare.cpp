@@ -6,7 +6,6 @@
 #include "api/live.h"
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace reflet::api {

@@ -145,7 +145,7 @@ std::string jsonExcess(std::string_view text, const JsonLimits& limits) {
     return "";
 }
 
-size_t jsonErrorByte(const nlohmann::json::exception& error, std::string_view text) {
+size_t jsonErrorByte(const std::exception& error, std::string_view text) {
     if (const auto* parse = dynamic_cast<const nlohmann::json::parse_error*>(&error); parse != nullptr) {
         return parse->byte;
     }

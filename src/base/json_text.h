@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
+#include <exception>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,9 +27,9 @@ uint64_t jsonValues(std::string_view text);
 /// Which limit the text exceeds, as the end of an error message; empty: none. All parsers below ask it first.
 std::string jsonExcess(std::string_view text, const JsonLimits& limits = {});
 
-/// The byte of a text, counted from 1, at which the parser stopped with this error: of a number beyond the range of
-/// doubles the first, which nlohmann-json does not tell. 0: unknown.
-size_t jsonErrorByte(const nlohmann::json::exception& error, std::string_view text);
+/// The byte of a text, counted from 1, at which the parser stopped with this error (a nlohmann::json::exception): of a
+/// number beyond the range of doubles the first, which nlohmann-json does not tell. 0: unknown.
+size_t jsonErrorByte(const std::exception& error, std::string_view text);
 
 /// Throws nlohmann::json::exception, or Error if the text exceeds a limit.
 nlohmann::json parseJson(std::string_view text, const JsonLimits& limits = {});

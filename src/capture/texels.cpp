@@ -6,7 +6,6 @@
 
 #include <glm/gtc/packing.hpp>
 
-#include <cmath>
 #include <cstring>
 
 namespace reflet {

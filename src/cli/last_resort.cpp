@@ -9,7 +9,6 @@
 
 #include <array>
 #include <csignal>
-#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string_view>

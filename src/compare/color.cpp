@@ -1,7 +1,6 @@
 // Conversions between linear sRGB, YyCxCz and CIELAB.
 #include "compare/color.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace reflet {

@@ -4,7 +4,6 @@
 #include "reference/camera_rays.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

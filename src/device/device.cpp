@@ -5,7 +5,6 @@
 #include "device/physical_device.h"
 
 #include <algorithm>
-#include <array>
 #include <exception>
 #include <future>
 #include <thread>

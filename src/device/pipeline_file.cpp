@@ -8,8 +8,6 @@
 
 #include <cstring>
 #include <exception>
-#include <system_error>
-#include <utility>
 
 namespace reflet::gpu {
 

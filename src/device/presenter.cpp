@@ -28,20 +28,6 @@ VkSurfaceFormatKHR chooseFormat(VkPhysicalDevice device, VkSurfaceKHR surface) {
     fail("the window supports no 8-bit UNORM format (among {} formats); select another device with --device", count);
 }
 
-VkPresentModeKHR chooseMode(VkPhysicalDevice device, VkSurfaceKHR surface, bool verticalSync) {
-    uint32_t count = 0;
-    constexpr const char* asking = "querying the window's presentation modes";
-    vkCheck(vkGetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, nullptr), asking);
-    std::vector<VkPresentModeKHR> modes(count);
-    vkCheck(vkGetPhysicalDeviceSurfacePresentModesKHR(device, surface, &count, modes.data()), asking);
-    for (const VkPresentModeKHR wanted : {VK_PRESENT_MODE_MAILBOX_KHR, VK_PRESENT_MODE_IMMEDIATE_KHR}) {
-        if (!verticalSync && std::ranges::find(modes, wanted) != modes.end()) {
-            return wanted;
-        }
-    }
-    return VK_PRESENT_MODE_FIFO_KHR;  // always supported
-}
-
 }  // namespace
 
 Presenter::Presenter(Device& device, VkSurfaceKHR surface) : device_(device), surface_(surface) {
@@ -77,13 +63,6 @@ void Presenter::dropSwapchain() {
     swapchain_ = VK_NULL_HANDLE;
 }
 
-void Presenter::setVerticalSync(bool on) {
-    if (on != verticalSync_) {
-        verticalSync_ = on;
-        dropSwapchain();
-    }
-}
-
 void Presenter::makeSwapchain(uvec2 window) {
     dropSwapchain();
     VkSurfaceCapabilitiesKHR can{};
@@ -110,7 +89,7 @@ void Presenter::makeSwapchain(uvec2 window) {
     info.compositeAlpha = (can.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR) != 0
                               ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
                               : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
-    info.presentMode = chooseMode(device_.physical(), surface_, verticalSync_);
+    info.presentMode = VK_PRESENT_MODE_FIFO_KHR;  // always supported
     info.clipped = VK_TRUE;
     VkSwapchainKHR made = VK_NULL_HANDLE;
     vkCheck(device_.functions().vkCreateSwapchainKHR(device_.handle(), &info, nullptr, &made),

@@ -25,9 +25,6 @@ public:
     /// Throws Error if the surface or the device is lost.
     bool present(const Image& image, uvec2 window);
 
-    /// Whether presentation waits for the vertical blank; off only where the device supports it.
-    void setVerticalSync(bool on);
-
 private:
     void open();
     void makeSwapchain(uvec2 window);
@@ -43,7 +40,6 @@ private:
     std::vector<VkImage> images_;
     uvec2 windowSize_{0};  ///< size of the window for which the swapchain was created
     uvec2 imageSize_{0};   ///< size of the swapchain's images
-    bool verticalSync_ = true;
 };
 
 }  // namespace reflet::gpu

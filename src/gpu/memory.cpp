@@ -4,7 +4,6 @@
 #include "base/error.h"
 #include "gpu/context.h"
 
-#include <algorithm>
 #include <iterator>
 #include <optional>
 #include <span>

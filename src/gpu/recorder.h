@@ -23,9 +23,8 @@ namespace reflet::gpu {
 
 /// Cost of recording a frame.
 struct RecordingCounts {
-    double ms = 0.0;       ///< host time from begin() to end(), including the code that lists the passes
-    uint32_t passes = 0;   ///< recorded passes, including copies and clears
-    uint32_t dropped = 0;  ///< culled passes, whose output is unused
+    double ms = 0.0;      ///< host time from begin() to end(), including the code that lists the passes
+    uint32_t passes = 0;  ///< recorded passes, including copies and clears
     uint32_t barriers = 0;
     uint32_t plans = 0;  ///< lists without a cached plan
 };

@@ -39,7 +39,6 @@ Recorder::UniformBlock Recorder::makeUniforms() {
 void Recorder::record(const CachedPlan& cached) {
     const Plan& plan = cached.plan;
     counting_.passes += static_cast<uint32_t>(plan.order.size());
-    counting_.dropped += static_cast<uint32_t>(passes().size() - plan.order.size());
     counting_.barriers += static_cast<uint32_t>(plan.barriers.size());
     bool readsBack = false;
     size_t barrier = 0;

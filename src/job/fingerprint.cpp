@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include <memory>
 #include <new>
 #include <type_traits>
 

@@ -13,7 +13,6 @@
 #include "scene/json_values.h"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <span>
 #include <thread>

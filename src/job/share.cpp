@@ -7,7 +7,6 @@
 #include <cstdlib>
 #include <optional>
 #include <string_view>
-#include <vector>
 
 namespace reflet {
 

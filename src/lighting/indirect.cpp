@@ -6,8 +6,6 @@
 #include "effects/light_mips/light_mips.h"
 #include "effects/lobe/answer_environment.h"
 
-#include <algorithm>
-
 namespace reflet::lighting {
 
 namespace {

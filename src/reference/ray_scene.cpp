@@ -12,9 +12,7 @@
 #include <embree3/rtcore.h>
 #endif
 
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <type_traits>
 

@@ -5,7 +5,6 @@
 #include "scene/scene.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <limits>

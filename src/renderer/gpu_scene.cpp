@@ -15,7 +15,6 @@
 #include <cstring>
 #include <iterator>
 #include <numeric>
-#include <span>
 
 namespace reflet {
 

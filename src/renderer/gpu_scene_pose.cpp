@@ -1,8 +1,6 @@
 // Animated poses of the scene's draws, lamps and deformed meshes.
 #include "renderer/gpu_scene.h"
 
-#include <algorithm>
-
 namespace reflet {
 
 // Each deformed instance has its own vertices, after those of all meshes.

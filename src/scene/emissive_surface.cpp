@@ -4,7 +4,6 @@
 #include "base/color.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <numeric>

@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 
 std::span<const reflet::gpu::Shader> refletViewShaders();

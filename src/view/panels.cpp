@@ -10,8 +10,6 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace reflet {
 

@@ -147,8 +147,7 @@ void RenderThread::run(const gpu::DeviceOptions& options, const std::string& sha
 }
 
 void RenderThread::loop(gpu::Device& device, ShaderWatch& shaders) {
-    Work work{device, live_, [this] { right_.reset(); },
-              [this](std::unique_ptr<Session> session) {
+    Work work{device, live_, [this](std::unique_ptr<Session> session) {
                   right_.reset();
                   live_ = std::move(session);
                   return ++scene_;

@@ -40,7 +40,6 @@ public:
     struct Work {
         gpu::Device& device;
         std::unique_ptr<Session>& live;                             ///< null before the first scene
-        std::function<void()> forgetRight;                          ///< discards the right image, to render it anew
         std::function<uint64_t(std::unique_ptr<Session>)> replace;  ///< opens another scene; returns its number
     };
     /// Remaining work of a job, to run on the window's thread once the job is done.

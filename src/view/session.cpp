@@ -8,7 +8,6 @@
 #include "effects/tonemap/tone_map_image.h"
 #include "renderer/history.h"
 #include "scene/pose.h"
-#include "scene/view_file.h"
 
 #include <algorithm>
 #include <cmath>

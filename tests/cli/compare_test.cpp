@@ -9,7 +9,6 @@
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace reflet::compare_test {
 namespace {

@@ -12,7 +12,6 @@
 #include <fcntl.h>
 #include <algorithm>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <thread>
 

@@ -49,14 +49,6 @@ TEST_F(Reference, AnExrHoldsAllLayersWithTheNamesAndChannelsOfTheRenderers) {
     }
 }
 
-TEST_F(Reference, FinalIsDirectPlusBothIndirectLayers) {
-    Images a = traced("builtin:cornell", {"--spp", "4"});
-    for (size_t i = 0; i < a[""].data.size(); ++i) {
-        const float sum = a["direct"].data[i] + a["indirect_diffuse"].data[i] + a["indirect_specular"].data[i];
-        ASSERT_FLOAT_EQ(sum, a[""].data[i]) << "value " << i;
-    }
-}
-
 // The effect on the sharp picture is much nearer to the shutter's.
 TEST_F(Reference, AShutterBlursWhatMovesAndMotionBlurComesNearIt) {
     const Arguments moving{"builtin:moving", "--time", "0.5", "--fps", "6"};

@@ -7,7 +7,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <map>
 
 namespace reflet::render_test {
@@ -79,17 +78,6 @@ TEST_F(Render, AnExrHoldsTheNamedLayersBesideTheMainImage) {
     }
 }
 
-TEST_F(Render, FinalIsDirectPlusBothIndirectLayers) {
-    ASSERT_TRUE(quietSuccess(render(cubes, {"-o", "a.exr", "--aov", "direct,indirect_diffuse,indirect_specular"})));
-    const auto all = layers("a.exr");
-    ASSERT_EQ(all.size(), 4U);
-    for (size_t i = 0; i < all[0].image.data.size(); ++i) {
-        const float whole = all[0].image.data[i];
-        const float sum = all[1].image.data[i] + all[2].image.data[i] + all[3].image.data[i];
-        ASSERT_NEAR(sum, whole, 0.003F * std::max(1.0F, whole)) << "value " << i;  // all four are half floats
-    }
-}
-
 // What each show holds in each scene is tested by Sweep, without a process for each.
 // Over 5 s: its processes each have their shaders compiled by the driver.
 TEST_F(Render, AShowMakesAPictureAndValuesOfItsSize) {
@@ -126,19 +114,6 @@ TEST_F(Render, AllListedShowsOfTheFramesSizeFitIntoOneFile) {
                                                 secondLayer, "--set", cascades, "--set", "ao.method=bitmask", "--set",
                                                 "temporal.enabled=true", "--frames", "1"})));
     EXPECT_EQ(layers("a.exr").size(), shows.size() + 1);
-}
-
-// Over 5 s: its processes each have their shaders compiled by the driver.
-TEST_F(Render, TheSameCommandTwiceGivesTheSameBytes) {
-    for (const char* scene : {"builtin:cubes", "builtin:cave"}) {
-        const Arguments outputs{"-o", "a.png", "-o", "a.exr", "--aov", "indirect_diffuse,source", "--frames", "2"};
-        ASSERT_TRUE(quietSuccess(render(scene, outputs)));
-        const std::string png = read("a.png");
-        const std::string exr = read("a.exr");
-        ASSERT_TRUE(quietSuccess(render(scene, outputs)));
-        EXPECT_EQ(png, read("a.png")) << scene;
-        EXPECT_EQ(exr, read("a.exr")) << scene;
-    }
 }
 
 // Over 5 s: its processes each have their shaders compiled by the driver.

@@ -68,12 +68,11 @@ TEST_F(Sequence, WritesAFileForEachFrameAndARecordAndNothingElse) {
     EXPECT_EQ(layers("b_10.exr").size(), 2U);
 }
 
-TEST_F(Sequence, TwoRunsGiveTheSameBytesAndEveryFrameIsAnother) {
-    const Bytes first = orbitIn("first");
-    EXPECT_EQ(namesOf(first), sixFrames);
-    EXPECT_EQ(orbitIn("second"), first);
+TEST_F(Sequence, EveryFrameIsAnother) {
+    const Bytes frames = orbitIn("whole");
+    EXPECT_EQ(namesOf(frames), sixFrames);
     for (size_t i = 1; i < sixFrames.size(); ++i) {
-        EXPECT_NE(first.at(sixFrames[i]), first.at(sixFrames[i - 1]));
+        EXPECT_NE(frames.at(sixFrames[i]), frames.at(sixFrames[i - 1]));
     }
 }
 

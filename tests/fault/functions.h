@@ -63,7 +63,6 @@ using PFN_vkCreateXlibSurfaceKHR = PFN_vkCreateXcbSurfaceKHR;
     F(vkGetPipelineCacheData, REFLET_MEMORY)                                                          \
     F(vkGetPhysicalDeviceSurfaceCapabilitiesKHR, REFLET_SURFACE)                                      \
     F(vkGetPhysicalDeviceSurfaceFormatsKHR, REFLET_SURFACE)                                           \
-    F(vkGetPhysicalDeviceSurfacePresentModesKHR, REFLET_SURFACE)                                      \
     F(vkGetPhysicalDeviceSurfaceSupportKHR, REFLET_SURFACE)                                           \
     F(vkGetQueryPoolResults, REFLET_LOST)                                                             \
     F(vkGetSwapchainImagesKHR, REFLET_MEMORY)                                                         \

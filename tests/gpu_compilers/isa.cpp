@@ -2,9 +2,7 @@
 #include "gpu_compilers/isa.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
-#include <string>
 #include <utility>
 
 namespace reflet::gpu_compilers {

@@ -4,7 +4,6 @@
 #include <glm/gtc/constants.hpp>
 
 #include <cmath>
-#include <functional>
 #include <optional>
 
 namespace reflet::test::lamp_shadows_test {

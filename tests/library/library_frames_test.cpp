@@ -1,7 +1,6 @@
 // The C API on a host's device: frames in flight, pipelines, memory, resets, devices and threads.
 #include "library/library_fixture.h"
 
-#include <functional>
 #include <thread>
 
 namespace reflet::test {

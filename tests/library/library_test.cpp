@@ -4,7 +4,6 @@
 #include <glm/gtx/component_wise.hpp>
 
 #include <cmath>
-#include <functional>
 
 namespace reflet::test {
 namespace {

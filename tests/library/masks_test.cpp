@@ -1,7 +1,6 @@
 // The masks of a host's G-buffer: what rays do not see, what reflects nothing, what antialiasing forgets.
 #include "library/library_fixture.h"
 
-#include <algorithm>
 #include <vector>
 
 namespace reflet::test {

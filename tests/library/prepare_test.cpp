@@ -1,9 +1,6 @@
 // refletPrepare makes all pipelines that frames of the effects can need, whichever of them run.
 #include "library/library_fixture.h"
 
-#include <cmath>
-#include <memory>
-
 namespace reflet::test::prepare_test {
 namespace {
 

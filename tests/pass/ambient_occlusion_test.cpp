@@ -3,9 +3,7 @@
 #include "compare/compare.h"
 #include "pass/harness.h"
 #include "reference/reference.h"
-#include "scene/builtin.h"
 
-#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -17,13 +15,6 @@ constexpr uvec2 size(200, 112);
 Settings with(std::vector<std::string> assignments) {
     assignments.insert(assignments.begin(), {"diffuse.rays=0", "specular.rays=0", "ao.slices=4", "ao.steps=16"});
     return settingsOf(assignments);
-}
-
-View viewFrom(const vec3& position, const vec3& target) {
-    View view;
-    view.camera.position = position;
-    view.camera.target = target;
-    return view;
 }
 
 Scene openGround() {

@@ -17,13 +17,6 @@ namespace {
 
 constexpr uvec2 size(160, 90);
 
-View viewFrom(const vec3& position, const vec3& target) {
-    View view;
-    view.camera.position = position;
-    view.camera.target = target;
-    return view;
-}
-
 // View distances of both layers in metres, 0: nothing.
 struct Layers {
     std::vector<float> front;

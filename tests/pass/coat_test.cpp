@@ -2,11 +2,9 @@
 #include "compare/compare.h"
 #include "pass/harness.h"
 #include "reference/reference.h"
-#include "support/device_fixture.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -205,15 +203,9 @@ TEST(Coat, ItHasARoughnessAndANormalOfItsOwn) {
     EXPECT_LT(bent.value("final", 33, 24), 0.05F * bright);
 }
 
-class CoatPasses : public DeviceTest {};
-
-TEST_F(CoatPasses, ScenesWithoutCoatsRecordNothingOfThem) {
+TEST(Coat, ScenesWithoutCoatsRecordNothingOfThem) {
     const auto passes = [](const Scene& scene, const char* coats) {
-        Renderer renderer(device(), scene, [](const std::string&) {});
-        renderer.render(whiteRoom(), size, 0, settingsOf({"diffuse.rays=0", coats}));
-        std::vector<std::string> names;
-        std::ranges::transform(renderer.frame().passTimes(), std::back_inserter(names), &gpu::PassTime::name);
-        return names;
+        return passNames(scene, whiteRoom(), size, settingsOf({"diffuse.rays=0", coats}));
     };
     Material bare = wood();
     bare.clearcoat = {};

@@ -107,19 +107,21 @@ TEST(Contact, OpenGroundIsFullyLitAtEverySunHeightAboveFiveDegrees) {
 TEST(Contact, ASphereDoesNotShadowItsLitSide) {
     const vec3 toSun = glm::normalize(vec3(0.3F, 1.0F, 0.5F));
     const Scene scene = groundWith(builtin::sphere(1.0F, 64), {0, 1, 0});
-    const Pictures p = render(scene, viewFrom({0, 5, 7}, toSun), size, with({"contact.distance=1"}),
-                              {"sun_visibility", "depth", "normal"});
-    unsigned lit = 0;
-    for (unsigned y = 0; y < size.y; ++y) {
-        for (unsigned x = 0; x < size.x; ++x) {
-            const vec3 n = p.color("normal", x, y);
-            if (p.hasSurface(x, y) && p.position(x, y).y > 0.1F && glm::dot(n, toSun) > 0.15F) {
-                EXPECT_EQ(p.value("sun_visibility", x, y), 1.0F) << x << ", " << y;
-                ++lit;
+    for (const char* filter : {"shadow.filter=hard", "shadow.filter=pcss"}) {
+        const Pictures p = render(scene, viewFrom({0, 5, 7}, toSun), size, with({"contact.distance=1", filter}),
+                                  {"sun_visibility", "depth", "normal"});
+        unsigned lit = 0;
+        for (unsigned y = 0; y < size.y; ++y) {
+            for (unsigned x = 0; x < size.x; ++x) {
+                const vec3 n = p.color("normal", x, y);
+                if (p.hasSurface(x, y) && p.position(x, y).y > 0.1F && glm::dot(n, toSun) > 0.15F) {
+                    EXPECT_EQ(p.value("sun_visibility", x, y), 1.0F) << filter << ": " << x << ", " << y;
+                    ++lit;
+                }
             }
         }
+        EXPECT_GT(lit, 200U);
     }
-    EXPECT_GT(lit, 200U);
 }
 
 // The box blocks no sunlight on those sides, but on the screen its walls are beside each ray.

@@ -3,7 +3,6 @@
 
 #include "capture/texels.h"
 #include "device/device.h"
-#include "device/upload.h"
 #include "pass/test_shaders.h"
 #include "renderer/view_params.h"
 
@@ -14,29 +13,6 @@ namespace reflet::test {
 namespace {
 
 constexpr uint32_t packedTowardCamera = 0;  // packUnitVector of +Z: the middle of the octahedron
-
-// Puts values into an image by one of the shaders that fill.
-class Filler {
-public:
-    Filler(gpu::Frame& frame, uvec2 size) : frame_(frame), size_(size) {}
-
-    template <class T>
-    gpu::Image fill(const char* name, VkFormat format, const char* shader, const std::vector<T>& texels) {
-        uploads_.push_back(gpu::uploadBuffer(frame_.device(), std::as_bytes(std::span(texels)),
-                                             VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, name));
-        const gpu::Image image = frame_.image(name, format, size_);
-        frame_.compute(name, shader).read("inputs", uploads_.back().view()).write("image", image).dispatch(size_);
-        return image;
-    }
-    gpu::Image colors(const char* name, const std::vector<vec4>& texels) {
-        return fill(name, VK_FORMAT_R16G16B16A16_SFLOAT, "fill_color_test.comp", texels);
-    }
-
-private:
-    gpu::Frame& frame_;
-    uvec2 size_;
-    std::vector<gpu::Buffer> uploads_;
-};
 
 }  // namespace
 

@@ -5,13 +5,12 @@
 #include "capture/texels.h"
 #include "device/device.h"
 #include "device/frame.h"
-#include "device/upload.h"
 #include "pass/test_shaders.h"
 #include "support/device_fixture.h"
 
 #include <cmath>
 #include <functional>
-#include <numeric>
+#include <limits>
 
 namespace reflet::test::depth_of_field_test {
 namespace {
@@ -53,25 +52,15 @@ public:
             radiance.emplace_back(p.radiance, 1.0F);
             depth.emplace_back(near / p.z);
         }
-        std::vector<gpu::Buffer> uploads;
-        const auto fill = [&](const char* name, const std::vector<vec4>& texels) {
-            uploads.push_back(gpu::uploadBuffer(frame_.device(), std::as_bytes(std::span(texels)),
-                                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, name));
-            const gpu::Image image = frame_.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, size);
-            frame_.compute(name, "fill_color_test.comp")
-                .read("inputs", uploads.back().view())
-                .write("image", image)
-                .dispatch(size);
-            return image;
-        };
+        Filler fill(frame_, size);
         frame_.begin();
         ViewParams view{};
         view.depthToDistance = vec4(near, 0.0F, 0.0F, 1.0F);
         view.eye = vec4(0.0F, 0.0F, 0.0F, 1.0F);
         view.size = vec2(size);
         view.pixelAngle = 1.0F / static_cast<float>(size.y);
-        const gpu::Image shown = fill("radiance", radiance);
-        const DofInputs in{shown, fill("depth", depth), {}, view, lens, settings};
+        const gpu::Image shown = fill.colors("radiance", radiance);
+        const DofInputs in{shown, fill.colors("depth", depth), {}, view, lens, settings};
         const gpu::Readback copy = frame_.readback(depthOfField(frame_, store_, in).radiance);
         frame_.submit();
         frame_.wait();

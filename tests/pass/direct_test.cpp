@@ -10,13 +10,6 @@ namespace {
 constexpr uvec2 size(160, 90);
 const std::vector<std::string> lambert{"materials.lambert_only=true", "diffuse.rays=0", "specular.rays=0"};
 
-View viewFrom(const vec3& position, const vec3& target) {
-    View view;
-    view.camera.position = position;
-    view.camera.target = target;
-    return view;
-}
-
 TEST(GBuffer, DepthOfAPlaneIsItsDistanceAlongTheView) {
     const View view = viewFrom({0, 2, 6}, {0, 0, 0});
     const Scene scene = sceneOf(lambertMaterial(vec3(0.5F)), builtin::ground({50, 50}, {1, 1}, {1, 1}));

@@ -2,8 +2,6 @@
 #include "pass/harness.h"
 #include "scene/builtin.h"
 
-#include <algorithm>
-
 namespace reflet::test::first_frame_test {
 namespace {
 

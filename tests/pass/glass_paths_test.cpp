@@ -4,7 +4,6 @@
 #include "pass/harness.h"
 #include "reference/reference.h"
 #include "renderer/presets.h"
-#include "support/device_fixture.h"
 
 #include <array>
 #include <cmath>

@@ -3,9 +3,7 @@
 #include "compare/compare.h"
 #include "pass/harness.h"
 #include "reference/reference.h"
-#include "support/device_fixture.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace reflet::test::glass_test {
@@ -284,22 +282,6 @@ TEST(Glass, TexturesSayWhereItTransmitsAndHowThickItIs) {
     EXPECT_NEAR(thick.value("final", 44, 24), 1.0F, 0.01F) << "none";
 }
 
-TEST(Glass, LayersOfTheFrameAddUp) {
-    Scene scene = stripes();
-    add(scene, glass(1.0F, 1.5F, vec3(0.9F)), builtin::sphere(1.0F, 32));
-    View view = darkView();
-    view.environment.radiance = vec3(0.5F, 0.7F, 1);
-    const Pictures p = render(scene, view, size, settingsOf({"diffuse.rays=1"}),
-                              {"final", "direct", "indirect_diffuse", "indirect_specular"});
-    for (unsigned y = 0; y < size.y; ++y) {
-        for (unsigned x = 0; x < size.x; ++x) {
-            const vec3 sum =
-                p.color("direct", x, y) + p.color("indirect_diffuse", x, y) + p.color("indirect_specular", x, y);
-            ASSERT_LT(glm::distance(sum, p.color("final", x, y)), 0.01F) << x << ' ' << y;
-        }
-    }
-}
-
 // A clear and a frosted ball and a pane before stripes, under a white sky.
 TEST(Glass, BallsAndAPaneAreThoseOfTheReference) {
     Scene scene = stripes();
@@ -326,16 +308,10 @@ TEST(Glass, BallsAndAPaneAreThoseOfTheReference) {
     EXPECT_GT(opaque, 2 * drawn);
 }
 
-class GlassPasses : public DeviceTest {};
-
-TEST_F(GlassPasses, OpaqueScenesRecordNothingOfIt) {
+TEST(Glass, OpaqueScenesRecordNothingOfIt) {
     Scene scene = stripes();
     const auto passes = [](const Scene& s, const char* layers) {
-        Renderer renderer(device(), s, [](const std::string&) {});
-        renderer.render(darkView(), size, 0, settingsOf({"diffuse.rays=0", layers}));
-        std::vector<std::string> names;
-        std::ranges::transform(renderer.frame().passTimes(), std::back_inserter(names), &gpu::PassTime::name);
-        return names;
+        return passNames(s, darkView(), size, settingsOf({"diffuse.rays=0", layers}));
     };
     const auto opaque = passes(scene, "transmission.layers=0");
     EXPECT_EQ(passes(scene, "transmission.layers=8"), opaque);

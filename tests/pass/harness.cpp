@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace reflet::test {
 
@@ -121,6 +122,22 @@ std::vector<Pictures> renderPath(const Scene& scene, const std::vector<View>& pa
 Pictures renderResized(const Scene& scene, const View& view, uvec2 before, uvec2 now, const Settings& settings,
                        const std::vector<std::string>& shows) {
     return renderFrames(scene, {{view, before}, {view, now}}, settings, shows);
+}
+
+std::vector<std::string> passNames(const Scene& scene, const View& view, uvec2 size, const Settings& settings) {
+    Renderer renderer(testDevice(), scene, [](const std::string&) {});
+    renderer.render(view, size, 0, settings);
+    expectSilentValidation("a frame of which only the passes are asked for");
+    std::vector<std::string> names;
+    std::ranges::transform(renderer.frame().passTimes(), std::back_inserter(names), &gpu::PassTime::name);
+    return names;
+}
+
+View viewFrom(const vec3& position, const vec3& target) {
+    View view;
+    view.camera.position = position;
+    view.camera.target = target;
+    return view;
 }
 
 vec3 pixelDirection(const Camera& camera, uvec2 size, unsigned x, unsigned y) {

@@ -50,6 +50,12 @@ std::vector<Pictures> renderPath(const Scene& scene, const std::vector<View>& pa
 Pictures renderResized(const Scene& scene, const View& view, uvec2 before, uvec2 now, const Settings& settings,
                        const std::vector<std::string>& shows);
 
+/// The names of the passes of a frame.
+std::vector<std::string> passNames(const Scene& scene, const View& view, uvec2 size, const Settings& settings);
+
+/// The default view from another place.
+View viewFrom(const vec3& position, const vec3& target);
+
 /// Unit direction from the eye through a pixel's centre.
 vec3 pixelDirection(const Camera& camera, uvec2 size, unsigned x, unsigned y);
 

@@ -2,8 +2,6 @@
 #include "pass/lamp_room.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 
 namespace reflet::test::lamp_penumbra_test {
 namespace {

@@ -3,7 +3,6 @@
 #include "pass/harness.h"
 #include "reference/motion.h"
 #include "reference/reference.h"
-#include "support/device_fixture.h"
 
 namespace reflet::test::layer_conventions_test {
 namespace {

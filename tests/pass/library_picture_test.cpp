@@ -4,9 +4,6 @@
 #include "scene/builtin.h"
 #include "support/device_fixture.h"
 
-#include <algorithm>
-#include <cmath>
-
 namespace reflet::test::library_picture_test {
 namespace {
 

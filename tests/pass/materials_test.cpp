@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace reflet::test::materials_test {
 namespace {
@@ -14,9 +13,7 @@ namespace {
 constexpr uvec2 size(96, 64);
 
 View viewFrom(const vec3& position, const vec3& target) {
-    View view;
-    view.camera.position = position;
-    view.camera.target = target;
+    View view = test::viewFrom(position, target);
     view.camera.fovY = glm::radians(35.0F);
     return view;
 }

@@ -1,7 +1,6 @@
 // A mirror on a wall, and objects around it.
 #include "pass/mirror_room.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace reflet::test {

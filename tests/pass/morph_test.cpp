@@ -2,8 +2,6 @@
 #include "compare/compare.h"
 #include "pass/harness.h"
 #include "reference/reference.h"
-#include "scene/builtin.h"
-#include "support/device_fixture.h"
 
 #include <cmath>
 #include <functional>

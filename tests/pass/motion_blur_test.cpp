@@ -5,7 +5,6 @@
 #include "capture/texels.h"
 #include "device/device.h"
 #include "device/frame.h"
-#include "device/upload.h"
 #include "pass/test_shaders.h"
 #include "renderer/view_params.h"
 #include "scene/builtin/assemble.h"
@@ -53,20 +52,10 @@ public:
             depth.emplace_back(1.0F / p.z);
             motion.emplace_back(p.moved / vec2(size), 0.0F, 0.0F);
         }
-        std::vector<gpu::Buffer> uploads;
-        const auto fill = [&](const char* name, const std::vector<vec4>& texels) {
-            uploads.push_back(gpu::uploadBuffer(frame_.device(), std::as_bytes(std::span(texels)),
-                                                VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, name));
-            const gpu::Image image = frame_.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, size);
-            frame_.compute(name, "fill_color_test.comp")
-                .read("inputs", uploads.back().view())
-                .write("image", image)
-                .dispatch(size);
-            return image;
-        };
+        Filler fill(frame_, size);
         frame_.begin();
-        const MotionBlurInputs in{fill("radiance", radiance), fill("depth", depth), fill("motion", motion), view,
-                                  settings};
+        const MotionBlurInputs in{fill.colors("radiance", radiance), fill.colors("depth", depth),
+                                  fill.colors("motion", motion), view, settings};
         const gpu::Readback copy = frame_.readback(motionBlur(frame_, in).radiance);
         frame_.submit();
         frame_.wait();

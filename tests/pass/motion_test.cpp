@@ -3,7 +3,6 @@
 #include "pass/harness.h"
 #include "reference/reference.h"
 #include "scene/builtin.h"
-#include "support/device_fixture.h"
 
 #include <cmath>
 

@@ -5,7 +5,6 @@
 #include "capture/show.h"
 #include "pass/harness.h"
 #include "renderer/presets.h"
-#include "scene/builtin.h"
 #include "scene/builtin/shapes.h"
 
 #include <algorithm>

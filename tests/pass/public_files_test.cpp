@@ -4,7 +4,6 @@
 #include "pass/harness.h"
 #include "reference/reference.h"
 #include "reference/thin_film.h"
-#include "support/device_fixture.h"
 
 namespace reflet::test::public_files_test {
 namespace {

@@ -3,7 +3,6 @@
 #include "pass/harness.h"
 #include "reference/reference.h"
 
-#include <cmath>
 #include <numeric>
 
 namespace reflet::test::radiance_cache_test {

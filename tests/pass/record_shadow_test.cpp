@@ -5,7 +5,6 @@
 #include "scene/builtin.h"
 #include "support/device_fixture.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace reflet::test::record_shadow_test {

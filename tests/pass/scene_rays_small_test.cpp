@@ -4,7 +4,6 @@
 #include "scene/builtin/assemble.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace reflet::test::scene_rays_small_test {
 namespace {

@@ -63,34 +63,6 @@ TEST(Shadow, EdgeOfAFloatingSlabLiesWhereTheSunProjectsIt) {
     expectSilentValidation("shadows");
 }
 
-TEST(Shadow, OpenGroundIsFullyLitAtEverySunHeightAboveFiveDegrees) {
-    const Scene scene = sceneOf(lambertMaterial(vec3(0.5F)), builtin::ground({10, 10}, {1, 1}, {1, 1}));
-    for (const float degrees : {5.0F, 10.0F, 20.0F, 45.0F, 70.0F, 90.0F}) {
-        const float a = glm::radians(degrees);
-        const View view = viewOfGround({std::cos(a) * 0.8F, std::sin(a), std::cos(a) * 0.6F});
-        const Pictures p = render(scene, view, size, settingsOf(direct), {"sun_visibility"});
-        EXPECT_EQ(rangeOf(p.images.at("sun_visibility")).min, 1.0F) << degrees << " degrees";
-    }
-}
-
-TEST(Shadow, ASphereDoesNotShadowItsLitSide) {
-    const vec3 toSun = glm::normalize(vec3(0.3F, 1.0F, 0.5F));
-    const Scene scene = groundWith(builtin::sphere(1.0F, 64), builtin::at({0, 1, 0}));
-    const Pictures p =
-        render(scene, viewOfGround(toSun), size, settingsOf(direct), {"sun_visibility", "depth", "normal"});
-    unsigned lit = 0;
-    for (unsigned y = 0; y < size.y; ++y) {
-        for (unsigned x = 0; x < size.x; ++x) {
-            const vec3 n = p.color("normal", x, y);
-            if (p.hasSurface(x, y) && p.position(x, y).y > 0.1F && glm::dot(n, toSun) > 0.15F) {
-                EXPECT_EQ(p.value("sun_visibility", x, y), 1.0F) << x << ", " << y;
-                ++lit;
-            }
-        }
-    }
-    EXPECT_GT(lit, 200U);
-}
-
 TEST(Shadow, BeginsAtTheFootOfABoxOnTheGround) {
     const vec3 toSun = glm::normalize(vec3(0.0F, 1.0F, -1.0F));  // from behind: the shadow falls toward the camera
     const Scene scene = groundWith(builtin::box(vec3(1.0F)), builtin::at({0, 1, 0}));

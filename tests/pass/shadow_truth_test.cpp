@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
 #include <string>
 
 namespace reflet::test::shadow_truth_test {

@@ -3,7 +3,6 @@
 #include "pass/harness.h"
 #include "scene/builtin.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace reflet::test::temporal_frame_test {

@@ -3,7 +3,6 @@
 
 #include "capture/texels.h"
 #include "device/device.h"
-#include "device/upload.h"
 #include "effects/jitter.h"
 #include "pass/test_shaders.h"
 
@@ -29,23 +28,13 @@ std::vector<vec4> TemporalRun::add(const MadeUpFrame& picture) {
         depth.emplace_back(p.depth);
         roots.emplace_back(glm::sqrt(glm::max(p.baseColor, 0.0F)), 1.0F);
     }
-    std::vector<gpu::Buffer> uploads;
-    const auto fill = [&](const char* name, const std::vector<vec4>& texels) {
-        uploads.push_back(gpu::uploadBuffer(frame_.device(), std::as_bytes(std::span(texels)),
-                                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, name));
-        const gpu::Image image = frame_.image(name, VK_FORMAT_R16G16B16A16_SFLOAT, size_);
-        frame_.compute(name, "fill_color_test.comp")
-            .read("inputs", uploads.back().view())
-            .write("image", image)
-            .dispatch(size_);
-        return image;
-    };
+    Filler fill(frame_, size_);
     frame_.begin();
-    const gpu::Image shown = fill("radiance", radiance);
-    const gpu::Image motions = fill("motion", motion);
-    const gpu::Image depths = fill("depth", depth);
+    const gpu::Image shown = fill.colors("radiance", radiance);
+    const gpu::Image motions = fill.colors("motion", motion);
+    const gpu::Image depths = fill.colors("depth", depth);
     const bool textured = picture({0, 0}).baseColor.x >= 0.0F;
-    const gpu::Image baseColor = textured ? fill("base_color", roots) : gpu::Image{};
+    const gpu::Image baseColor = textured ? fill.colors("base_color", roots) : gpu::Image{};
     ViewParams view{};
     view.exposureChange = 1.0F;
     const vec2 jitter = subpixelJitter(count_);

@@ -2,7 +2,6 @@
 #include "pass/harness.h"
 #include "scene/builtin.h"
 
-#include <cmath>
 #include <functional>
 
 namespace reflet::test::trace_scene_test {

@@ -8,7 +8,6 @@
 #include "scene/environment.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <set>
 

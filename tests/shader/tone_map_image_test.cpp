@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
-#include <string>
 
 namespace reflet::test::tone_map_image_test {
 namespace {

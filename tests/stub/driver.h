@@ -37,7 +37,6 @@ struct Counts {
     std::array<uint64_t, kinds> made{};  ///< since the program began
     std::array<uint64_t, kinds> live{};
 
-    [[nodiscard]] uint64_t madeOf(Kind kind) const { return made.at(static_cast<size_t>(kind)); }
     bool operator==(const Counts&) const = default;
 };
 Counts counts();

@@ -112,14 +112,6 @@ VKAPI_ATTR VkResult VKAPI_CALL createImage(VkDevice /*device*/, const VkImageCre
     return make<Image>(image, *info);
 }
 
-VKAPI_ATTR void VKAPI_CALL destroyImage(VkDevice /*device*/, VkImage handle, const VkAllocationCallbacks* /*host*/) {
-    if (handle != VK_NULL_HANDLE) {
-        auto& image = known<Image>(handle, Kind::image, "vkDestroyImage");
-        checkUnused(image, "vkDestroyImage");
-        drop(image);
-    }
-}
-
 VKAPI_ATTR void VKAPI_CALL imageNeeds(VkDevice /*device*/, VkImage handle, VkMemoryRequirements* needs) {
     *needs = {known<Image>(handle, Kind::image, "vkGetImageMemoryRequirements").bytes, alignment, 3};
 }
@@ -130,15 +122,16 @@ void checkRange(const Memory& memory, VkDeviceSize offset, uint64_t bytes, const
     }
 }
 
-VKAPI_ATTR VkResult VKAPI_CALL bindImage(VkDevice /*device*/, VkImage handle, VkDeviceMemory memory,
-                                         VkDeviceSize offset) {
-    auto& image = known<Image>(handle, Kind::image, "vkBindImageMemory");
-    checkRange(known<Memory>(memory, Kind::memory, "vkBindImageMemory"), offset, image.bytes, "vkBindImageMemory");
-    if (image.bound) {
-        misuse("an image that has memory", "vkBindImageMemory");
+template <class T, Kind K, class Handle>
+VKAPI_ATTR VkResult VKAPI_CALL bindMemory(VkDevice /*device*/, Handle handle, VkDeviceMemory memory,
+                                          VkDeviceSize offset) {
+    auto& object = known<T>(handle, K, "vkBindMemory");
+    checkRange(known<Memory>(memory, Kind::memory, "vkBindMemory"), offset, object.bytes, "vkBindMemory");
+    if (object.bound) {
+        misuse("an object that has memory", "vkBindMemory");
     }
     const VkResult result = beginMaking();
-    image.bound = result == VK_SUCCESS;
+    object.bound = result == VK_SUCCESS;
     return result;
 }
 
@@ -157,14 +150,6 @@ VKAPI_ATTR VkResult VKAPI_CALL createView(VkDevice /*device*/, const VkImageView
     return result;
 }
 
-VKAPI_ATTR void VKAPI_CALL destroyView(VkDevice /*device*/, VkImageView handle, const VkAllocationCallbacks* /*host*/) {
-    if (handle != VK_NULL_HANDLE) {
-        auto& view = known<ImageView>(handle, Kind::imageView, "vkDestroyImageView");
-        checkUnused(view, "vkDestroyImageView");
-        drop(view);
-    }
-}
-
 VKAPI_ATTR VkResult VKAPI_CALL createBuffer(VkDevice /*device*/, const VkBufferCreateInfo* info,
                                             const VkAllocationCallbacks* /*host*/, VkBuffer* handle) {
     const VkResult result = make<Buffer>(handle);
@@ -174,29 +159,9 @@ VKAPI_ATTR VkResult VKAPI_CALL createBuffer(VkDevice /*device*/, const VkBufferC
     return result;
 }
 
-VKAPI_ATTR void VKAPI_CALL destroyBuffer(VkDevice /*device*/, VkBuffer handle, const VkAllocationCallbacks* /*host*/) {
-    if (handle != VK_NULL_HANDLE) {
-        auto& buffer = known<Buffer>(handle, Kind::buffer, "vkDestroyBuffer");
-        checkUnused(buffer, "vkDestroyBuffer");
-        drop(buffer);
-    }
-}
-
 VKAPI_ATTR void VKAPI_CALL bufferNeeds(VkDevice /*device*/, VkBuffer handle, VkMemoryRequirements* needs) {
     const uint64_t bytes = known<Buffer>(handle, Kind::buffer, "vkGetBufferMemoryRequirements").bytes;
     *needs = {(bytes + alignment - 1) / alignment * alignment, alignment, 3};
-}
-
-VKAPI_ATTR VkResult VKAPI_CALL bindBuffer(VkDevice /*device*/, VkBuffer handle, VkDeviceMemory memory,
-                                          VkDeviceSize offset) {
-    auto& buffer = known<Buffer>(handle, Kind::buffer, "vkBindBufferMemory");
-    checkRange(known<Memory>(memory, Kind::memory, "vkBindBufferMemory"), offset, buffer.bytes, "vkBindBufferMemory");
-    if (buffer.bound) {
-        misuse("a buffer that has memory", "vkBindBufferMemory");
-    }
-    const VkResult result = beginMaking();
-    buffer.bound = result == VK_SUCCESS;
-    return result;
 }
 
 }  // namespace
@@ -215,15 +180,15 @@ void addMemoryFunctions(Functions& to) {
     REFLET_STUB(vkFreeMemory, release)
     REFLET_STUB(vkMapMemory, map)
     REFLET_STUB(vkCreateImage, createImage)
-    REFLET_STUB(vkDestroyImage, destroyImage)
+    REFLET_STUB(vkDestroyImage, (Destroying<Image, Kind::image, PFN_vkDestroyImage>::call))
     REFLET_STUB(vkGetImageMemoryRequirements, imageNeeds)
-    REFLET_STUB(vkBindImageMemory, bindImage)
+    REFLET_STUB(vkBindImageMemory, (bindMemory<Image, Kind::image, VkImage>))
     REFLET_STUB(vkCreateImageView, createView)
-    REFLET_STUB(vkDestroyImageView, destroyView)
+    REFLET_STUB(vkDestroyImageView, (Destroying<ImageView, Kind::imageView, PFN_vkDestroyImageView>::call))
     REFLET_STUB(vkCreateBuffer, createBuffer)
-    REFLET_STUB(vkDestroyBuffer, destroyBuffer)
+    REFLET_STUB(vkDestroyBuffer, (Destroying<Buffer, Kind::buffer, PFN_vkDestroyBuffer>::call))
     REFLET_STUB(vkGetBufferMemoryRequirements, bufferNeeds)
-    REFLET_STUB(vkBindBufferMemory, bindBuffer)
+    REFLET_STUB(vkBindBufferMemory, (bindMemory<Buffer, Kind::buffer, VkBuffer>))
 }
 
 }  // namespace reflet::stub

@@ -27,19 +27,6 @@ struct Creating<K, VkResult(VKAPI_PTR*)(VkDevice, const Info*, const VkAllocatio
     }
 };
 
-template <Kind K, class Pfn>
-struct Destroying;
-template <Kind K, class Handle>
-struct Destroying<K, void(VKAPI_PTR*)(VkDevice, Handle, const VkAllocationCallbacks*)> {
-    static VKAPI_ATTR void VKAPI_CALL call(VkDevice /*device*/, Handle handle, const VkAllocationCallbacks* /*host*/) {
-        if (handle != VK_NULL_HANDLE) {
-            auto& object = known<Plain<K>>(handle, K, "vkDestroy");
-            checkUnused(object, "vkDestroy");
-            drop(object);
-        }
-    }
-};
-
 VKAPI_ATTR VkResult VKAPI_CALL createCache(VkDevice /*device*/, const VkPipelineCacheCreateInfo* info,
                                            const VkAllocationCallbacks* /*host*/, VkPipelineCache* cache) {
     const auto* const bytes = static_cast<const unsigned char*>(info->pInitialData);
@@ -194,7 +181,7 @@ void lose(bool lost) {
 void addObjectFunctions(Functions& to) {
 #define REFLET_PLAIN(kind, creating, destroying)                        \
     REFLET_STUB(creating, (Creating<Kind::kind, PFN_##creating>::call)) \
-    REFLET_STUB(destroying, (Destroying<Kind::kind, PFN_##destroying>::call))
+    REFLET_STUB(destroying, (Destroying<Plain<Kind::kind>, Kind::kind, PFN_##destroying>::call))
     REFLET_PLAIN(shader, vkCreateShaderModule, vkDestroyShaderModule)
     REFLET_PLAIN(setLayout, vkCreateDescriptorSetLayout, vkDestroyDescriptorSetLayout)
     REFLET_PLAIN(layout, vkCreatePipelineLayout, vkDestroyPipelineLayout)
@@ -202,10 +189,11 @@ void addObjectFunctions(Functions& to) {
     REFLET_PLAIN(queryPool, vkCreateQueryPool, vkDestroyQueryPool)
 #undef REFLET_PLAIN
     REFLET_STUB(vkCreatePipelineCache, createCache)
-    REFLET_STUB(vkDestroyPipelineCache, (Destroying<Kind::pipelineCache, PFN_vkDestroyPipelineCache>::call))
+    REFLET_STUB(vkDestroyPipelineCache,
+                (Destroying<Plain<Kind::pipelineCache>, Kind::pipelineCache, PFN_vkDestroyPipelineCache>::call))
     REFLET_STUB(vkGetPipelineCacheData, cacheData)
     REFLET_STUB(vkCreateComputePipelines, createPipelines)
-    REFLET_STUB(vkDestroyPipeline, (Destroying<Kind::pipeline, PFN_vkDestroyPipeline>::call))
+    REFLET_STUB(vkDestroyPipeline, (Destroying<Plain<Kind::pipeline>, Kind::pipeline, PFN_vkDestroyPipeline>::call))
     REFLET_STUB(vkCreateDescriptorPool, createPool)
     REFLET_STUB(vkDestroyDescriptorPool, destroyPool)
     REFLET_STUB(vkAllocateDescriptorSets, allocateSets)

@@ -59,8 +59,6 @@ struct Pool;
 struct Set : Object {
     Set() : Object(Kind::set) {}
     Pool* pool = nullptr;
-    std::vector<ImageView*> views;
-    std::vector<Buffer*> buffers;
     std::vector<std::pair<uint32_t, Object*>> bound;  ///< by binding
 };
 
@@ -131,5 +129,19 @@ void drop(T& object) {
     object.alive = 0;
     delete &object;
 }
+
+/// A destroy function of Vulkan.
+template <class T, Kind K, class Pfn>
+struct Destroying;
+template <class T, Kind K, class Handle>
+struct Destroying<T, K, void(VKAPI_PTR*)(VkDevice, Handle, const VkAllocationCallbacks*)> {
+    static VKAPI_ATTR void VKAPI_CALL call(VkDevice /*device*/, Handle handle, const VkAllocationCallbacks* /*host*/) {
+        if (handle != VK_NULL_HANDLE) {
+            auto& object = known<T>(handle, K, "vkDestroy");
+            checkUnused(object, "vkDestroy");
+            drop(object);
+        }
+    }
+};
 
 }  // namespace reflet::stub

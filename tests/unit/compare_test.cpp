@@ -2,19 +2,19 @@
 #include "compare/compare.h"
 
 #include "base/color.h"
-#include "base/error.h"
 #include "compare/color.h"
 #include "compare/heat_map.h"
+#include "unit/message_of.h"
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 
 namespace reflet::compare_test {
 namespace {
+
+using test::messageOf;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
@@ -33,15 +33,6 @@ Difference difference(const FloatImage& picture, const FloatImage& reference, Im
     CompareOptions options;
     options.kind = kind;
     return compareImages(picture, reference, options).difference;
-}
-
-std::string messageOf(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
 }
 
 std::string complaint(const FloatImage& picture, const FloatImage& reference, const CompareOptions& options = {}) {

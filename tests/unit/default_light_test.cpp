@@ -2,23 +2,23 @@
 #include "scene/default_light.h"
 
 #include "base/color.h"
-#include "base/error.h"
 #include "scene/background.h"
 #include "scene/builtin/assemble.h"
 #include "scene/environment.h"
 #include "scene/sky.h"
 #include "scene/view_file.h"
+#include "unit/message_of.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <cmath>
-#include <functional>
 #include <limits>
 
 namespace reflet::default_light_test {
 namespace {
 
+using test::messageOf;
 using Mode = Background::Mode;
 
 Scene boxScene() {
@@ -33,15 +33,6 @@ Lamp pointLamp(const vec3& position, float intensity) {
     lamp.position = position;
     lamp.intensity = vec3(intensity);
     return lamp;
-}
-
-std::string errorOf(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
 }
 
 TEST(DefaultLight, IsASkyWithItsSunForASceneWithoutLight) {
@@ -137,7 +128,7 @@ TEST(ChosenEnvironment, OfAnUnlitSceneChangesItsDefaultSun) {
     view.background = {};
     chooseEnvironment(view, {.name = "none"});
     EXPECT_EQ(view, unlit) << "the default sun in the dark";
-    EXPECT_NE(errorOf([&] { chooseEnvironment(view, {.name = "sun"}); }).find("sky, studio or none"),
+    EXPECT_NE(messageOf([&] { chooseEnvironment(view, {.name = "sun"}); }).find("sky, studio or none"),
               std::string::npos);
 }
 
@@ -165,9 +156,9 @@ TEST(ChosenEnvironment, InAViewFileIsByNameOrAnImageWithProperties) {
     EXPECT_EQ(low.sun.irradiance, vec3(6.0F));
     EXPECT_NEAR(low.environment.intensity, 2.0F, 1e-3F);
     EXPECT_NEAR(std::abs(low.environment.rotation), glm::pi<float>(), 1e-5F);
-    EXPECT_EQ(errorOf([&] { (void)apply(R"({"environment": {"image": "none"}})"); }),
+    EXPECT_EQ(messageOf([&] { (void)apply(R"({"environment": {"image": "none"}})"); }),
               "v.json: environment.image: must be 'sky', 'studio' or the name of an .hdr or .exr file, is \"none\"");
-    EXPECT_NE(errorOf([&] { (void)apply(R"({"environment": "skye"})"); }).find(".hdr or .exr"), std::string::npos);
+    EXPECT_NE(messageOf([&] { (void)apply(R"({"environment": "skye"})"); }).find(".hdr or .exr"), std::string::npos);
 }
 
 TEST(ChosenEnvironment, IsTheSameAfterAViewFileWroteAndReadIt) {
@@ -203,9 +194,9 @@ TEST(BackgroundText, IsParsedAndNamesTheChoicesWhereItIsWrong) {
     EXPECT_EQ(parseBackground("0.25,0,1"), (Background{Mode::color, {0.25F, 0, 1}}));
     for (const char* wrong :
          {"", "0.5", "1,2,3", "0,0", "0,0,0,0", "0,0,0,", "a,b,c", "-0.1,0,0", "nan,0,0", "0, 0,0"}) {
-        EXPECT_NE(errorOf([&] { (void)parseBackground(wrong); }).find("transparent"), std::string::npos) << wrong;
+        EXPECT_NE(messageOf([&] { (void)parseBackground(wrong); }).find("transparent"), std::string::npos) << wrong;
     }
-    EXPECT_NE(errorOf([] { (void)parseBackground("bluer"); }).find("'blur'"), std::string::npos);
+    EXPECT_NE(messageOf([] { (void)parseBackground("bluer"); }).find("'blur'"), std::string::npos);
 }
 
 TEST(BackgroundText, InAViewFileIsANameOrThreeNumbers) {
@@ -215,7 +206,7 @@ TEST(BackgroundText, InAViewFileIsANameOrThreeNumbers) {
     applyViewJson(nlohmann::json::parse(R"({"background": "blur"})"), "v.json", view);
     EXPECT_EQ(view.background.mode, Mode::blur);
     const auto complaint = [&](const char* text) {
-        return errorOf([&] { applyViewJson(nlohmann::json::parse(text), "v.json", view); });
+        return messageOf([&] { applyViewJson(nlohmann::json::parse(text), "v.json", view); });
     };
     EXPECT_EQ(complaint(R"({"background": [0, 0, 2]})"), "v.json: background[2]: must be between 0 and 1, is 2");
     EXPECT_EQ(complaint(R"({"background": 1})"), "v.json: background: must be a name or three numbers of 0 to 1, is 1");

@@ -1,8 +1,8 @@
 // Files and image files: round trips, atomic writing, error messages.
 #include "base/image_file.h"
 
-#include "base/error.h"
 #include "base/file.h"
+#include "unit/message_of.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -14,13 +14,13 @@
 #include <cmath>
 #include <csignal>
 #include <filesystem>
-#include <functional>
 #include <limits>
 
 namespace reflet::image_file_test {
 namespace {
 
 namespace fs = std::filesystem;
+using test::messageOf;
 
 /// An empty folder for one test.
 class Files : public ::testing::Test {
@@ -50,15 +50,6 @@ private:
 
 using ImageFile = Files;
 using ExrFile = Files;
-
-std::string messageOf(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
 
 /// Limits the size of written files during its lifetime, to simulate a full disk.
 class FileSizeLimit {

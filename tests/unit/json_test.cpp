@@ -4,25 +4,18 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json_text.h"
+#include "unit/message_of.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 #include <filesystem>
-#include <functional>
 #include <string>
 
 namespace reflet::json_test {
 namespace {
 
-std::string messageOf(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
+using test::messageOf;
 
 /// The error message of parseJsonFile for this content, without the file's name.
 std::string parseErrorOf(const std::string& content) {

@@ -10,6 +10,7 @@
 #include "gltf_encoders.h"
 #include "scene/gltf/container.h"
 #include "scene/gltf/files.h"
+#include "unit/message_of.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,6 @@
 
 #include <array>
 #include <cstdlib>
-#include <functional>
 
 namespace reflet::test::limits_test {
 namespace {
@@ -34,15 +34,6 @@ public:
     MemoryLimit(MemoryLimit&&) = delete;
     MemoryLimit& operator=(MemoryLimit&&) = delete;
 };
-
-std::string messageOf(const std::function<void()>& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
-}
 
 bool has(const std::string& text, std::string_view part) {
     return text.find(part) != std::string::npos;

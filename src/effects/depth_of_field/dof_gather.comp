@@ -5,7 +5,6 @@
 #include "effects/depth_of_field/dof_layers.glsl"
 #include "effects/depth_of_field/dof_shape.glsl"
 #include "effects/depth_of_field/dof_tile_lists.glsl"
-#include "shaders/half_float.glsl"
 
 layout(constant_id = 1) const uint coarse = 0u;  // 1: large disks, at a quarter of the picture's size; 0: the rest, and both together
 layout(constant_id = 2) const uint hasFront = 0u;   // 1: tiles that disks of the near layer reach

@@ -5,7 +5,6 @@
 #include "effects/gbuffer/gbuffer.glsl"
 #include "effects/import/finite.glsl"
 #include "effects/import/import.h"
-#include "effects/material_features.glsl"
 #include "shaders/projection.glsl"
 #include "shaders/shading_normal.glsl"
 #include "shaders/srgb.glsl"

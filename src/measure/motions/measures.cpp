@@ -5,8 +5,6 @@
 #include "measure/bench/motion.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
 #include <numeric>
 

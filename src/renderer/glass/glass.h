@@ -13,8 +13,6 @@
 
 SHARED_BEGIN
 
-const uint mostGlassLayers = 8;
-
 #define TRANSMISSION_SETTINGS(VALUE, SWITCH, CHOICE)                                                                \
     VALUE(uint, layers, 3, 0, 8,                                                                                    \
           "Glass surfaces (KHR_materials_transmission) that a pixel shows behind one another, the nearest ones "    \

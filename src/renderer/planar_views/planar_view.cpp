@@ -5,7 +5,6 @@
 #include "renderer/renderer.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace reflet {
 

@@ -5,7 +5,6 @@
 #include "scene/builtin/patterns.h"
 
 #include <array>
-#include <utility>
 
 namespace reflet::builtin {
 namespace {

@@ -1,8 +1,6 @@
 // Value noise: a hashed number at every lattice point, interpolated with a quintic for continuous slopes.
 #include "scene/builtin/noise.h"
 
-#include <cmath>
-
 namespace reflet::builtin {
 namespace {
 

@@ -7,7 +7,6 @@
 #include "scene/gltf/uri.h"
 
 #include <span>
-#include <vector>
 
 namespace reflet {
 

@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "scene/gltf/image_formats.h"
 
-#include <algorithm>
 #include <span>
 
 namespace reflet {

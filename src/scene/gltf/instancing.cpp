@@ -4,7 +4,6 @@
 #include "scene/gltf/accessor.h"
 #include "scene/pose.h"
 
-#include <cmath>
 #include <optional>
 
 namespace reflet {

@@ -4,7 +4,6 @@
 #include "scene/gltf/image.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace reflet {
 

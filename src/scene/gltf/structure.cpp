@@ -6,8 +6,6 @@
 #include "base/json_text.h"
 #include "scene/gltf/used.h"
 
-#include <array>
-#include <iterator>
 #include <new>
 #include <string_view>
 

@@ -6,8 +6,6 @@
 #include "scene/gltf/container.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <optional>
 #include <system_error>
 
